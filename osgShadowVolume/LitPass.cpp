@@ -395,7 +395,8 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     if (!isNew && applied->second == number)
         return;
     applied->second = number;
-    static const unsigned int uniforms = osg::Uniform::getNameID("osgsv_light[0]");
+    // osg::Program trims "[0]" off the names of arrays.
+    static const unsigned int uniforms = osg::Uniform::getNameID("osgsv_light");
     static const unsigned int range = osg::Uniform::getNameID("osgsv_range");
     static const unsigned int origin = osg::Uniform::getNameID("osgsv_gridOrigin");
     static const unsigned int scale = osg::Uniform::getNameID("osgsv_gridScale");
