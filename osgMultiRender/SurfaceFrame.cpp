@@ -318,7 +318,8 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             OSG_WARN << _group->libraryName() << "::" << _group->className()
                      << ": GLSL " << _languageVersion
                      << " is older than 3.30, so models keep their fixed-function look; a driver with "
-                        "the OpenGL 3.3 compatibility profile is needed\n";
+                        "the OpenGL 3.3 compatibility profile is needed"
+                     << std::endl;
         });
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
@@ -454,7 +455,7 @@ void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
     const std::string& name = variant.getProgram()->getName();
     OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
              << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
-             << errorsOf(*variant.getProgram(), state);
+             << errorsOf(*variant.getProgram(), state) << std::flush;
 }
 
 void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
