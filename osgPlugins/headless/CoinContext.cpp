@@ -2,8 +2,8 @@
 #include "CoinContext.h"
 
 #include "ExitStatus.h"
+#include "Report.h"
 
-#include <osg/Notify>
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
 
@@ -48,7 +48,7 @@ void* createContext(unsigned int width, unsigned int height)
                        : nullptr;
     if (!surface)
     {
-        OSG_WARN << coinBackend->getPluginName() << ": Coin gets no context: " << error << "\n";
+        reportOnce(*coinBackend, error);
         return nullptr;
     }
     return new OffscreenContext{std::move(surface), {}};

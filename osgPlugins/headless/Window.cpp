@@ -52,7 +52,7 @@ bool Window::realizeImplementation()
     if (!_surface)
     {
         OSG_WARN << _backend.getPluginName()
-                 << ": a closed window cannot be realized; make a new one\n";
+                 << ": a closed window cannot be realized; make a new one" << std::endl;
         return false;
     }
     drawToFramebufferObject();
@@ -68,7 +68,7 @@ void Window::closeImplementation()
         std::string error;
         if (_surface && !_capture->write(error))
         {
-            OSG_WARN << _backend.getPluginName() << ": " << error << "\n";
+            OSG_WARN << _backend.getPluginName() << ": " << error << std::endl;
             exitWithFailure();
         }
         _capture.reset();
@@ -140,7 +140,7 @@ bool Window::setWindowRectangleImplementation(int, int, int width, int height)
     {
         OSG_WARN << _backend.getPluginName() << ": a window cannot be resized to " << width << "x"
                  << height << "; the size stays " << _traits->width << "x" << _traits->height
-                 << "\n";
+                 << std::endl;
         return false;
     }
     std::lock_guard<std::mutex> lock(_sizeMutex);
@@ -192,7 +192,8 @@ void Window::applySize()
         return;
     }
     OSG_WARN << _backend.getPluginName() << ": no memory for a window of " << wanted->width << "x"
-             << wanted->height << "; pictures stay " << _size.width << "x" << _size.height << "\n";
+             << wanted->height << "; pictures stay " << _size.width << "x" << _size.height
+             << std::endl;
     if (_capture)
     {
         exitWithFailure();

@@ -2,9 +2,9 @@
 #include "WindowingSystem.h"
 
 #include "ExitStatus.h"
+#include "Report.h"
 #include "Window.h"
 
-#include <osg/Notify>
 #include <osgDB/Registry>
 
 #include <algorithm>
@@ -104,11 +104,7 @@ osg::GraphicsContext* WindowingSystem::createGraphicsContext(osg::GraphicsContex
     osg::ref_ptr<osg::GraphicsContext> context = create(*traits, error);
     if (!context)
     {
-        std::lock_guard<std::mutex> lock(_reportMutex);
-        if (_reported.insert(error).second)
-        {
-            OSG_WARN << _backend.getPluginName() << ": " << error << "\n";
-        }
+        reportOnce(_backend, error);
         if (!traits->pbuffer && !Capture::getRequestedFile().empty())
         {
             exitWithFailure();

@@ -4,8 +4,6 @@
 #include "CoinContext.h"
 #include "Surface.h"
 
-#include <mutex>
-#include <set>
 #include <vector>
 
 namespace osgHeadless
@@ -45,9 +43,7 @@ private:
 
     Backend& _backend;
     std::vector<Screen> _screens;
-    std::mutex _reportMutex;
-    std::set<std::string> _reported; // osgviewer asks again for a window that failed
-    std::string _screenError;        // of OSG_HEADLESS_SCREEN; the first window reports it
+    std::string _screenError; // of OSG_HEADLESS_SCREEN; the first window reports it
 };
 
 /// Puts a windowing system first in OSG's list, which is asked in order, and gives Coin contexts.
