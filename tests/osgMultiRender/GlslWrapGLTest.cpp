@@ -61,7 +61,8 @@ protected:
             state = state * 1664525u + 1013904223u;
             byte = static_cast<unsigned char>(state >> 24);
         }
-        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE, noise.data());
+        glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 16, 16, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                     noise.data());
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     }
 
@@ -86,11 +87,20 @@ protected:
             const GLint at = glGetUniformLocation(program.id(), name);
             switch (type)
             {
-            case GL_FLOAT: glUniform1f(at, value); break;
-            case GL_FLOAT_VEC2: glUniform2f(at, value, 1.0f - value); break;
-            case GL_FLOAT_VEC3: glUniform3f(at, value, 1.0f - value, 0.5f); break;
-            case GL_FLOAT_VEC4: glUniform4f(at, value, 1.0f - value, 0.5f, 1.0f); break;
-            default: break;
+            case GL_FLOAT:
+                glUniform1f(at, value);
+                break;
+            case GL_FLOAT_VEC2:
+                glUniform2f(at, value, 1.0f - value);
+                break;
+            case GL_FLOAT_VEC3:
+                glUniform3f(at, value, 1.0f - value, 0.5f);
+                break;
+            case GL_FLOAT_VEC4:
+                glUniform4f(at, value, 1.0f - value, 0.5f, 1.0f);
+                break;
+            default:
+                break;
             }
         }
     }
@@ -153,7 +163,8 @@ bool buildPlain(const Pair& pair, PlainProgram& program)
     const std::string main = wrapperMain(wrapped.version, wrapped.outputs, options);
     ok = program.add(GL_FRAGMENT_SHADER, main) && ok && program.link();
     return ok ? ::testing::AssertionSuccess()
-              : ::testing::AssertionFailure() << program.log() << "\n" << all << main;
+              : ::testing::AssertionFailure() << program.log() << "\n"
+                                              << all << main;
 }
 
 /// Pixels of the first picture that are not as in the second.
@@ -270,7 +281,8 @@ TEST_F(GlslWrapGLTest, compilerMessagesKeepTheUsersLines)
     const std::vector<std::pair<std::string, int>> cases = {
         {"varying vec2 uv;\n\nvoid main() { gl_FragColor = nowhere; }\n", 3},
         {"#version 120\nvarying vec2 uv;\nvoid main()\n{\n    gl_FragColor = nowhere;\n}\n", 5},
-        {"// head\n\n#version 120 /* two\nlines */\n#ifdef GL_unknown\nint i;\n#endif\nvoid main()\n"
+        {"// head\n\n#version 120 /* two\nlines */\n#ifdef GL_unknown\nint i;\n#endif\nvoid "
+         "main()\n"
          "{ gl_FragColor = nowhere; }\n",
          9},
         {"#version 120\n#line 99\nvoid main() { gl_FragColor = nowhere; }\n", 100},

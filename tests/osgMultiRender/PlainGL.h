@@ -31,8 +31,8 @@ public:
             return;
         }
         eglChooseConfig(_display, attributes, &config, 1, &count);
-        _context = eglCreateContext(_display, count ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
-                                    nullptr);
+        _context =
+            eglCreateContext(_display, count ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
         _current = _context && eglMakeCurrent(_display, EGL_NO_SURFACE, EGL_NO_SURFACE, _context);
     }
 
@@ -150,6 +150,7 @@ public:
         glDepthFunc(GL_LEQUAL);
         glClearBufferfv(GL_DEPTH, 0, &far);
         glUseProgram(program.id());
+        glColor4f(1.0f, 0.75f, 0.5f, 1.0f);
         quad(0.0f);
         glUseProgram(0);
         if (!_integers)
