@@ -208,10 +208,11 @@ osgDB::ReaderWriter::WriteResult ReaderWriterOiio::writeImage(const osg::Image& 
         return WriteResult(error);
     }
     std::string format = settings.format;
+    std::string extension = usualExtension(format);
     if (format.empty())
     {
-        format =
-            lookUp(readableExtensions(), osgDB::getLowerCaseFileExtension(image.getFileName()));
+        extension = osgDB::getLowerCaseFileExtension(image.getFileName());
+        format = lookUp(readableExtensions(), extension);
     }
     if (!isWritable(format))
     {
