@@ -23,9 +23,9 @@ function(osgkits_embed_shaders target)
     endif()
     set(header ${PROJECT_BINARY_DIR}/include/${target}/Shaders.h)
     list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE files)
-    string(REPLACE ";" "\\;" escaped "${files}")
+    list(JOIN files "|" joined)
     add_custom_command(OUTPUT ${header}
-        COMMAND ${CMAKE_COMMAND} -DNAMESPACE=${target}::shaders "-DFILES=${escaped}"
+        COMMAND ${CMAKE_COMMAND} -DNAMESPACE=${target}::shaders "-DFILES=${joined}"
             -DOUTPUT=${header} -P ${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake
         DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake VERBATIM)
     target_sources(${target} PRIVATE ${header})

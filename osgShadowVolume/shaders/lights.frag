@@ -1,0 +1,84 @@
+// All lights that may reach this fragment, by the fixed function's equation.
+//
+// osgsv_lights holds six texels a light, 256 lights a row:
+//   0 position or unit direction towards the light; type (0 directional, 1 point, 2 spot)
+//   1 ambient, constant attenuation      2 diffuse, linear attenuation
+//   3 specular, quadratic attenuation    4 unit spot direction, cosine of the cutoff
+//   5 spot exponent
+// osgsv_lists holds light indices, and offset and count of each cell of the grid, 1024 a row.
+
+uniform sampler2D osgsv_lights;
+uniform isampler2D osgsv_lists;
+uniform ivec2 osgsv_range; // offset and count of a list
+
+int osgsv_list(int i)
+{
+    return texelFetch(osgsv_lists, ivec2(i & 1023, i >> 10), 0).r;
+}
+
+vec4 osgsv_light(int light, int texel)
+{
+    return texelFetch(osgsv_lights, ivec2((light & 255) * 6 + texel, light >> 8), 0);
+}
+
+void osgsv_addLight(int light, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
+                    inout vec3 specular)
+{
+    vec4 position = osgsv_light(light, 0);
+    vec4 lightAmbient = osgsv_light(light, 1);
+    vec4 lightDiffuse = osgsv_light(light, 2);
+    vec4 lightSpecular = osgsv_light(light, 3);
+    vec3 toLight = position.xyz;
+    float attenuation = 1.0;
+    if (position.w > 0.0)
+    {
+        toLight = position.xyz - surface.position;
+        float distance = length(toLight);
+        toLight = distance > 0.0 ? toLight / distance : vec3(0.0);
+        float denominator =
+            lightAmbient.w + distance * (lightDiffuse.w + lightSpecular.w * distance);
+        attenuation = denominator > 0.0 ? min(1.0 / denominator, 1e30) : 1e30;
+        if (position.w > 1.5)
+        {
+            vec4 spot = osgsv_light(light, 4);
+            float exponent = osgsv_light(light, 5).x;
+            float c = dot(-toLight, spot.xyz);
+            attenuation *= c < spot.w ? 0.0 : exponent == 0.0 ? 1.0 : pow(max(c, 0.0), exponent);
+        }
+    }
+    ambient += attenuation * lightAmbient.rgb;
+    float nl = dot(surface.normal, toLight);
+    if (nl > 0.0)
+    {
+        diffuse += attenuation * nl * lightDiffuse.rgb;
+        float nh = dot(surface.normal, normalize(toLight + surface.toEye));
+        float power = surface.shininess == 0.0 ? 1.0 : nh > 0.0 ? pow(nh, surface.shininess) : 0.0;
+        specular += attenuation * power * lightSpecular.rgb;
+    }
+}
+
+void osgsv_addList(ivec2 range, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
+                   inout vec3 specular)
+{
+    for (int i = 0; i < range.y; ++i)
+        osgsv_addLight(osgsv_list(range.x + i), surface, ambient, diffuse, specular);
+}
+
+#ifdef OSGSV_GRID
+uniform vec3 osgsv_gridOrigin;
+uniform vec3 osgsv_gridScale; // cells per unit
+uniform ivec3 osgsv_gridSize;
+uniform int osgsv_gridCells; // where offset and count of cell 0 lie
+#endif
+
+void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse, inout vec3 specular)
+{
+    osgsv_addList(osgsv_range, surface, ambient, diffuse, specular);
+#ifdef OSGSV_GRID
+    ivec3 cell = ivec3(clamp((surface.position - osgsv_gridOrigin) * osgsv_gridScale, vec3(0.0),
+                             vec3(osgsv_gridSize - 1)));
+    int at = osgsv_gridCells +
+             2 * (cell.x + osgsv_gridSize.x * (cell.y + osgsv_gridSize.y * cell.z));
+    osgsv_addList(ivec2(osgsv_list(at), osgsv_list(at + 1)), surface, ambient, diffuse, specular);
+#endif
+}
