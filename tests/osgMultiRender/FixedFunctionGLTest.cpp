@@ -10,6 +10,8 @@
 #include <support/InventorModels.h>
 #include <support/NotifyCapture.h>
 
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
 #include <osgDB/ReadFile>
 
 #include <algorithm>
@@ -61,11 +63,33 @@ void expectFixedFunctionPicture(osg::Node* node, const support::CameraSpec& came
     lit->setLighting(LitScene::Lighting::VERTEX);
     lit->addChild(node);
     // the lit one first: OSG frees the images of textures when it has drawn them
+    theViewer().setFailOnGLErrors(false);
     const auto actual = theViewer().render(lit, camera, Width, Height, 2);
+    const std::vector<std::string> errors = theViewer().getGLErrors();
     expectPrograms(*lit, name, beyond);
     const auto expected = theViewer().render(node, camera, Width, Height, 2);
+    // OSG itself raises some, for instance for lights above 7; none may come on top
+    EXPECT_LE(errors.size(), theViewer().getGLErrors().size()) << name;
     EXPECT_TRUE(Oracle(actual, expected, "fixedFunction." + name));
 }
+
+/// Finds arrays with fewer elements than there are vertices: what GL reads beyond their end is
+/// undefined, so that not even two pictures of the fixed function need be equal.
+class ShortArrays : public osg::NodeVisitor
+{
+public:
+    ShortArrays() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Geometry& geometry) override
+    {
+        const osg::Array* vertices = geometry.getVertexArray();
+        for (const osg::Array* array : {geometry.getNormalArray(), geometry.getColorArray()})
+            found = found || (array && array->getBinding() == osg::Array::BIND_PER_VERTEX &&
+                              array->getNumElements() < vertices->getNumElements());
+    }
+
+    bool found = false;
+};
 
 std::set<std::string> families()
 {
@@ -116,6 +140,11 @@ TEST_P(InventorModel, hasThePictureOfTheFixedFunction)
     const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(GetParam());
     ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
     support::NotifyCapture notify;
+    ShortArrays arrays;
+    model->accept(arrays);
+    if (arrays.found)
+        GTEST_SKIP()
+            << "NOT COMPARED: it has fewer colors than vertices; GL's picture is undefined";
     const auto camera = support::CameraSpec::overview(*model, double(Width) / Height);
     expectFixedFunctionPicture(model, camera, caseName(GetParam()));
 }
