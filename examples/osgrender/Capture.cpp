@@ -5,6 +5,7 @@
 #include <osg/ContextData>
 #include <osg/GLExtensions>
 #include <osg/Notify>
+#include <osg/RenderInfo>
 #include <osg/State>
 #include <osg/Texture>
 #include <osg/Viewport>
@@ -58,12 +59,32 @@ private:
     GLuint _colors = 0;
 };
 
+/// Keeps OSG from multisampling through an extension that is not there.
+///
+/// OSG 3.6 takes any function pointer for support, and libglvnd gives one for every name; the
+/// multisampled framebuffer would be incomplete, and drawn without samples.
+class ExtensionCheck : public osg::Camera::DrawCallback
+{
+public:
+    void operator()(osg::RenderInfo& renderInfo) const override
+    {
+        const unsigned int context = renderInfo.getContextID();
+        if (!osg::isGLExtensionSupported(context, "GL_NV_framebuffer_multisample_coverage"))
+            renderInfo.getState()->get<osg::GLExtensions>()->glRenderbufferStorageMultisampleCoverageNV =
+                nullptr;
+    }
+
+protected:
+    ~ExtensionCheck() override = default;
+};
+
 } // namespace
 
 Capture::Capture(bool floatPixels) : _floatPixels(floatPixels) {}
 
 void Capture::install(osg::Camera& camera, int samples)
 {
+    camera.setInitialDrawCallback(new ExtensionCheck);
     camera.setFinalDrawCallback(this);
     if (!_floatPixels)
         return;
@@ -111,7 +132,11 @@ void Capture::operator()(osg::RenderInfo& renderInfo) const
         _renderer = {glString(GL_VENDOR), glString(GL_RENDERER), glString(GL_VERSION),
                      glString(GL_SHADING_LANGUAGE_VERSION)};
     if (_wanted && _floatPixels)
+    {
         _picture = new osg::Image(*_target, osg::CopyOp::DEEP_COPY_ALL);
+        // What OSG's HDR writer asks for.
+        _picture->setInternalTextureFormat(GL_RGB32F_ARB);
+    }
     else if (_wanted)
         readDefaultFramebuffer(state);
     glFinish();

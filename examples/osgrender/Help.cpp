@@ -84,11 +84,11 @@ void printHelp()
     osg::ApplicationUsage& usage = *parser.getApplicationUsage();
     usage.addCommandLineOption("--image <filename>", "Load an image and render it on a quad");
     usage.addCommandLineOption("--dem <filename>", "Load an image and render it on a HeightField");
-    // What means something else here, or the window.
-    for (const char* name : {"--samples <num>", "--screen <num>", "--window <x y w h>",
-                             "--borderless-window <x y w h>", "-h or --help"})
-        usage.getCommandLineOptions().size(), static_cast<void>(name);
-    usage.write(std::cout, usage.getCommandLineOptions());
+    osg::ApplicationUsage::UsageMap options = usage.getCommandLineOptions();
+    for (const char* own : {"--samples <num>", "--screen <num>", "--window <x y w h>",
+                            "--borderless-window <x y w h>", "-h or --help"})
+        options.erase(own);
+    usage.write(std::cout, options);
 }
 
 } // namespace osgrender

@@ -11,6 +11,7 @@
 #include <osgDB/FileNameUtils>
 
 #include <cstdio>
+#include <cstdlib>
 
 using namespace osgrender;
 
@@ -154,6 +155,9 @@ int main(int argc, char** argv)
     if (process.scripts.empty() && !process.page.empty())
         return complain("--html goes with @script", WrongArguments);
 
+    // Readers tell of each file at NOTICE; a script is better off without.
+    if (!std::getenv("OSG_NOTIFY_LEVEL") && !std::getenv("OSGNOTIFYLEVEL"))
+        osg::setNotifyLevel(osg::WARN);
     osg::ref_ptr<WarningCounter> counter = new WarningCounter;
     osg::setNotifyHandler(counter.get());
     const Backend backend = chooseBackend(process.backend, argv, error);
