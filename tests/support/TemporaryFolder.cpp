@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include <support/TemporaryFolder.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <stdexcept>
+
+namespace support
+{
+
+TemporaryFolder::TemporaryFolder()
+{
+    std::string pattern = (std::filesystem::temp_directory_path() / "osgkits.XXXXXX").string();
+    if (!mkdtemp(pattern.data()))
+        throw std::runtime_error("no folder can be made for " + pattern);
+    _path = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder()
+{
+    std::error_code ignored;
+    std::filesystem::remove_all(_path, ignored);
+}
+
+std::string TemporaryFolder::write(const std::string& name, const std::string& content) const
+{
+    std::ofstream(file(name), std::ios::binary) << content;
+    return file(name);
+}
+
+} // namespace support
