@@ -132,11 +132,7 @@ void Capture::operator()(osg::RenderInfo& renderInfo) const
         _renderer = {glString(GL_VENDOR), glString(GL_RENDERER), glString(GL_VERSION),
                      glString(GL_SHADING_LANGUAGE_VERSION)};
     if (_wanted && _floatPixels)
-    {
         _picture = new osg::Image(*_target, osg::CopyOp::DEEP_COPY_ALL);
-        // What OSG's HDR writer asks for.
-        _picture->setInternalTextureFormat(GL_RGB32F_ARB);
-    }
     else if (_wanted)
         readDefaultFramebuffer(state);
     glFinish();

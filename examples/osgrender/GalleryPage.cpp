@@ -55,8 +55,9 @@ std::string escape(const std::string& text)
 /// `file` as seen from the page's folder; a file elsewhere keeps its full path.
 std::string relativeTo(const std::string& page, const std::string& file)
 {
-    const std::string folder = osgDB::getFilePath(osgDB::getRealPath(page));
-    return osgDB::getPathRelative(folder, osgDB::getRealPath(file));
+    const std::string folder = osgDB::getFilePath(osgDB::getRealPath(page)) + "/";
+    const std::string path = osgDB::getRealPath(file);
+    return path.compare(0, folder.size(), folder) == 0 ? path.substr(folder.size()) : path;
 }
 
 std::string row(const char* name, const std::string& value)

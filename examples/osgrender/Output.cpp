@@ -4,6 +4,7 @@
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
+#include <osgDB/fstream>
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,22 @@ osg::ref_ptr<osg::Image> toBytes(const osg::Image& picture)
         }
     }
     return bytes;
+}
+
+/// Radiance files through OpenImageIO: OSG's own writer swaps width and height in the header.
+osgDB::ReaderWriter::WriteResult writeRadiance(const osg::Image& picture, const std::string& file)
+{
+    osgDB::ReaderWriter* writer = osgDB::Registry::instance()->getReaderWriterForExtension("rgbe");
+    if (!writer)
+        return osgDB::ReaderWriter::WriteResult("the plugin osgdb_rgbe can't be loaded");
+    osgDB::ofstream stream(file.c_str(), std::ios::binary);
+    if (!stream)
+        return osgDB::ReaderWriter::WriteResult(std::strerror(errno));
+    const osg::ref_ptr<osg::Image> named = new osg::Image(picture);
+    named->setFileName("picture.rgbe");
+    const osgDB::ReaderWriter::WriteResult result = writer->writeImage(*named, stream, nullptr);
+    stream.close();
+    return stream ? result : osgDB::ReaderWriter::WriteResult(std::strerror(errno));
 }
 
 bool makeFolder(const std::string& file, std::string& error)
@@ -156,7 +173,9 @@ bool writePicture(const osg::Image& picture, const std::string& file, bool asFlo
         written = toBytes(picture);
     osgDB::Registry* registry = osgDB::Registry::instance();
     const osgDB::ReaderWriter::WriteResult result =
-        registry->writeImage(*written, file, registry->getOptions());
+        osgDB::getLowerCaseFileExtension(file) == "hdr"
+            ? writeRadiance(*written, file)
+            : registry->writeImage(*written, file, registry->getOptions());
     if (result.success())
         return true;
     error = "can't write '" + file + "'";

@@ -72,7 +72,7 @@ int renderOne(const ProcessArguments& process, Backend backend, WarningCounter& 
 void renderLine(const ScriptLine& line, const ProcessArguments& process, Backend backend,
                 WarningCounter& counter, GalleryEntry& entry)
 {
-    entry.place = line.place;
+    entry.place = entry.title = line.place;
     entry.error = line.error;
     std::vector<std::string> words = process.rest;
     words.insert(words.end(), line.words.begin(), line.words.end());
