@@ -6,7 +6,7 @@
 #include <osg/PagedLOD>
 #include <osg/Program>
 #include <osg/ProxyNode>
-#include <osgDB/FileUtils>
+#include <osgDB/FileNameUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
@@ -60,7 +60,12 @@ osg::ref_ptr<osg::Node> readModel(const std::string& file, std::string& error)
     else if (result.notFound())
         error += ": it is not there";
     else if (result.notHandled())
-        error += ": no plugin reads it";
+    {
+        const std::string extension = osgDB::getLowerCaseFileExtension(file);
+        error += registry->getReaderWriterForExtension(extension)
+                     ? ": the plugin for '." + extension + "' does not understand it"
+                     : ": no plugin reads '." + extension + "'";
+    }
     return nullptr;
 }
 
