@@ -37,12 +37,12 @@ bool parse(const Values& words, const Switches& switches, Values& rest, std::str
         const std::size_t count = found->second.values;
         if (words.size() - i - 1 < count)
         {
-            error = words[i] + " needs " + (count == 1 ? "a value" : std::to_string(count) + " values");
+            error =
+                words[i] + " needs " + (count == 1 ? "a value" : std::to_string(count) + " values");
             return false;
         }
         const auto first = words.begin() + std::ptrdiff_t(i) + 1;
-        const std::string cause =
-            found->second.take(Values(first, first + std::ptrdiff_t(count)));
+        const std::string cause = found->second.take(Values(first, first + std::ptrdiff_t(count)));
         if (!cause.empty())
         {
             error = cause.compare(0, 2, "--") == 0 ? cause : words[i] + ": " + cause;
@@ -55,7 +55,8 @@ bool parse(const Values& words, const Switches& switches, Values& rest, std::str
 
 Switch text(std::string& target)
 {
-    return {1, [&target](const Values& v) {
+    return {1, [&target](const Values& v)
+            {
                 target = v[0];
                 return v[0].empty() ? "an empty value" : "";
             }};
@@ -63,7 +64,9 @@ Switch text(std::string& target)
 
 Switch whole(int& target, int low, int high)
 {
-    return {1, [&target, low, high](const Values& v) -> std::string {
+    return {1,
+            [&target, low, high](const Values& v) -> std::string
+            {
                 long value = 0;
                 if (!parseWhole(v[0], low, high, value))
                     return "'" + v[0] + "' is not a whole number from " + std::to_string(low) +
@@ -75,7 +78,9 @@ Switch whole(int& target, int low, int high)
 
 Switch number(double& target, double low)
 {
-    return {1, [&target, low](const Values& v) -> std::string {
+    return {1,
+            [&target, low](const Values& v) -> std::string
+            {
                 if (parseNumber(v[0], target) && target >= low)
                     return std::string();
                 return "'" + v[0] + "' is not a number of at least " + std::to_string(low);
@@ -84,7 +89,8 @@ Switch number(double& target, double low)
 
 Switch flag(bool& target)
 {
-    return {0, [&target](const Values&) {
+    return {0, [&target](const Values&)
+            {
                 target = true;
                 return std::string();
             }};
@@ -125,9 +131,8 @@ std::string takeDefinition(const std::string& text, std::map<std::string, std::s
 /// osgviewer's switches that mean the window, which here is the picture.
 void addWindowSwitches(Switches& switches, Arguments& arguments)
 {
-    const Switch window = {4, [&arguments](const Values& v) {
-                               return takeSize(v[2], v[3], arguments);
-                           }};
+    const Switch window = {4, [&arguments](const Values& v)
+                           { return takeSize(v[2], v[3], arguments); }};
     switches["--window"] = switches["--borderless-window"] = window;
     switches["--screen"] = {1, [](const Values&) { return std::string(); }};
 }
@@ -135,21 +140,25 @@ void addWindowSwitches(Switches& switches, Arguments& arguments)
 Switches renderSwitches(Arguments& a)
 {
     Switches switches;
-    switches["-o"] = {1, [&a](const Values& v) {
+    switches["-o"] = {1, [&a](const Values& v)
+                      {
                           a.outputs.push_back(v[0]);
                           return checkPattern(v[0]);
                       }};
-    switches["--size"] = {1, [&a](const Values& v) {
+    switches["--size"] = {1, [&a](const Values& v)
+                          {
                               const Values parts = split(v[0], 'x');
                               return parts.size() == 2 ? takeSize(parts[0], parts[1], a)
                                                        : "'" + v[0] + "' is not WIDTHxHEIGHT";
                           }};
-    switches["--camera"] = {1, [&a](const Values& v) {
+    switches["--camera"] = {1, [&a](const Values& v)
+                            {
                                 std::string error;
                                 parseCamera(v[0], a.camera, error);
                                 return error;
                             }};
-    switches["--tolerance"] = {1, [&a](const Values& v) {
+    switches["--tolerance"] = {1, [&a](const Values& v)
+                               {
                                    std::string error;
                                    parseTolerance(v[0], a.tolerance, error);
                                    return error;
@@ -194,12 +203,10 @@ bool parseProcess(const std::vector<std::string>& words, ProcessArguments& argum
     Switches switches;
     switches["--help"] = switches["-h"] = flag(arguments.help);
     switches["--html"] = text(arguments.page);
-    switches["--backend"] = {1, [&](const Values& v) {
-                                 return takeBackend(v[0], arguments.backend);
-                             }};
-    switches["-D"] = {1, [&](const Values& v) {
-                          return takeDefinition(v[0], arguments.definitions);
-                      }};
+    switches["--backend"] = {1,
+                             [&](const Values& v) { return takeBackend(v[0], arguments.backend); }};
+    switches["-D"] = {1,
+                      [&](const Values& v) { return takeDefinition(v[0], arguments.definitions); }};
     Values rest;
     if (!parse(words, switches, rest, error))
         return false;

@@ -37,7 +37,7 @@ struct Arguments
     int frames = 1;
     double startSeconds = 0.0; ///< Simulation time of the first frame.
     double frameSeconds = 0.04;
-    int timingFrames = -1;       ///< Repetitions of the last frame to time; -1: 10 if --stats or --html.
+    int timingFrames = -1; ///< Repetitions of the last frame to time; -1: 10 if --stats or --html.
     double pagingSeconds = 30.0; ///< Longest wait for paged tiles.
 
     std::string stats; ///< JSON file; empty: none.

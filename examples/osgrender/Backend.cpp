@@ -39,7 +39,8 @@ bool loadPlugin(const std::string& name, std::string& error)
     const std::string library = registry->createLibraryNameForExtension(name);
     if (registry->loadLibrary(library) != osgDB::Registry::NOT_LOADED)
         return true;
-    error = "the plugin " + library + " can't be loaded; set OSG_LIBRARY_PATH to the folder that holds " +
+    error = "the plugin " + library +
+            " can't be loaded; set OSG_LIBRARY_PATH to the folder that holds " +
             osgDB::getFilePath(library);
     return false;
 }

@@ -171,6 +171,7 @@ osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file, std::st
 {
     // Not AnimationPath::read(), which never ends on text that is no number.
     osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+    path->setLoopMode(osg::AnimationPath::NO_LOOPING);
     const std::string found = osgDB::findDataFile(file);
     osgDB::ifstream stream(found.c_str());
     double n[8];

@@ -15,8 +15,8 @@ namespace osgrender
 /// Where a picture is taken from, as --camera says it.
 struct CameraSetting
 {
-    bool home = true;                ///< From osgviewer's home position.
-    std::optional<osg::Vec3d> eye;   ///< World coordinates; set unless home.
+    bool home = true;                 ///< From osgviewer's home position.
+    std::optional<osg::Vec3d> eye;    ///< World coordinates; set unless home.
     std::optional<osg::Vec3d> center; ///< World coordinates; else the centre of the scene.
     osg::Vec3d up = osg::Vec3d(0.0, 0.0, 1.0);
     std::optional<double> fovDegrees; ///< Vertical, above 0 and below 180; else osgviewer's.
@@ -37,7 +37,7 @@ bool aim(osg::Camera& camera, osg::Node& scene, const CameraSetting& setting, st
 /// Reads OSG's `.path` (time, position, rotation a line, as osgviewer's z key saves it).
 osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file, std::string& error);
 
-/// Puts the camera where the path is `seconds` after its start.
+/// Puts the camera where the path is `seconds` after its start; it stays at the path's end.
 void follow(osg::Camera& camera, const osg::AnimationPath& path, double seconds);
 
 } // namespace osgrender

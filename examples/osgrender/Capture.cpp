@@ -24,7 +24,8 @@ std::string glString(GLenum name)
     return text ? reinterpret_cast<const char*>(text) : "";
 }
 
-/// Averages a multisampled framebuffer into one that can be read, and makes that the read framebuffer.
+/// Averages a multisampled framebuffer into one that can be read, and makes that the read
+/// framebuffer.
 class Resolve
 {
 public:
@@ -37,8 +38,13 @@ public:
         _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, _framebuffer);
         _gl.glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
                                       GL_RENDERBUFFER_EXT, _colors);
+        // A scissor cuts a blit too.
+        const GLboolean scissor = glIsEnabled(GL_SCISSOR_TEST);
+        glDisable(GL_SCISSOR_TEST);
         _gl.glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                               GL_NEAREST);
+        if (scissor)
+            glEnable(GL_SCISSOR_TEST);
         _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, _framebuffer);
     }
 
@@ -70,8 +76,9 @@ public:
     {
         const unsigned int context = renderInfo.getContextID();
         if (!osg::isGLExtensionSupported(context, "GL_NV_framebuffer_multisample_coverage"))
-            renderInfo.getState()->get<osg::GLExtensions>()->glRenderbufferStorageMultisampleCoverageNV =
-                nullptr;
+            renderInfo.getState()
+                ->get<osg::GLExtensions>()
+                ->glRenderbufferStorageMultisampleCoverageNV = nullptr;
     }
 
 protected:
@@ -114,7 +121,8 @@ void Capture::beginFrame(bool wanted)
 bool Capture::waitForFrame(double seconds)
 {
     std::unique_lock<std::mutex> lock(_mutex);
-    return _drawn.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return _finished; });
+    return _drawn.wait_for(lock, std::chrono::duration<double>(seconds),
+                           [this] { return _finished; });
 }
 
 osg::ref_ptr<osg::Image> Capture::getPicture() const
@@ -152,19 +160,20 @@ void Capture::readDefaultFramebuffer(osg::State& state) const
     GLint samples = 0;
     if (gl->isFrameBufferObjectSupported)
         gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
+    if (gl->isPBOSupported)
+        gl->glBindBuffer(GL_PIXEL_PACK_BUFFER_ARB, 0);
     glGetIntegerv(GL_SAMPLES_ARB, &samples);
 
     _picture = new osg::Image;
-    const GLenum buffer = framebuffer ? GL_COLOR_ATTACHMENT0_EXT : GL_BACK;
-    if (framebuffer && samples > 0)
+    glReadBuffer(framebuffer ? GL_COLOR_ATTACHMENT0_EXT : GL_BACK);
+    // Of a pbuffer, too: Mesa's surfaceless platform reads one sample of it otherwise.
+    if (samples > 0 && gl->isFrameBufferObjectSupported)
     {
-        glReadBuffer(buffer);
         const Resolve resolve(*gl, framebuffer, width, height);
         glReadBuffer(GL_COLOR_ATTACHMENT0_EXT);
         _picture->readPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE);
         return;
     }
-    glReadBuffer(buffer);
     _picture->readPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE);
 }
 
@@ -178,7 +187,8 @@ void Capture::countErrors() const
         if (code == GL_NO_ERROR)
             return;
         ++_glErrors;
-        OSG_WARN << "osgrender: OpenGL error 0x" << std::hex << code << std::dec << " in the frame\n";
+        OSG_WARN << "osgrender: OpenGL error 0x" << std::hex << code << std::dec
+                 << " in the frame\n";
     }
 }
 

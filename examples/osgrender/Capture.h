@@ -19,9 +19,9 @@ struct Renderer
 
 /// Reads the finished frame back, in the thread that draws it.
 ///
-/// Takes the last place in a camera's drawing: its final draw callback. Reads the default framebuffer
-/// (through a resolve where the windowing system draws into a multisampled framebuffer object), or,
-/// with float pixels, the camera's own render target, which keeps values above 1.
+/// Takes the last place in a camera's drawing: its final draw callback. Reads the default
+/// framebuffer, its samples averaged, or, with float pixels, the camera's own render target, which
+/// keeps values above 1.
 class Capture : public osg::Camera::DrawCallback
 {
 public:
@@ -36,7 +36,8 @@ public:
     /// Waits until the frame is drawn. False when that takes longer than `seconds`.
     bool waitForFrame(double seconds);
 
-    /// The last wanted picture, RGB of bytes or floats, the bottom row first. Null when none was drawn.
+    /// The last wanted picture, RGB of bytes or floats, the bottom row first. Null when none was
+    /// drawn.
     osg::ref_ptr<osg::Image> getPicture() const;
 
     const Renderer& getRenderer() const { return _renderer; }

@@ -58,8 +58,8 @@ bool parseTolerance(const std::string& text, Tolerance& tolerance, std::string& 
     if (parts.size() == 3 && parseShare(parts[0], tolerance.threshold) &&
         parseShare(parts[1], tolerance.share) && parseShare(parts[2], tolerance.limit))
         return true;
-    error = "--tolerance '" + text +
-            "': expected threshold,share,limit, for example 2/255,0.1%,8/255";
+    error =
+        "--tolerance '" + text + "': expected threshold,share,limit, for example 2/255,0.1%,8/255";
     return false;
 }
 
@@ -82,8 +82,8 @@ Comparison compare(const osg::Image& picture, const osg::Image& reference,
         for (int x = 0; x < width; ++x)
         {
             const osg::Vec4 a = pixel(picture, x, y), b = pixel(reference, x, y);
-            unsigned char* out = result.difference->data(static_cast<unsigned int>(x),
-                                                         static_cast<unsigned int>(y));
+            unsigned char* out =
+                result.difference->data(static_cast<unsigned int>(x), static_cast<unsigned int>(y));
             double worst = 0.0;
             for (int channel = 0; channel < 3; ++channel)
             {

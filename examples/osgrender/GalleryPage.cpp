@@ -42,11 +42,20 @@ std::string escape(const std::string& text)
     {
         switch (c)
         {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
-        default: result += c;
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c;
         }
     }
     return result;
@@ -94,8 +103,8 @@ std::string table(const Report& report)
            row("programs compiled, reused",
                whole(report.programsCompiled) + ", " + whole(report.programsReused)) +
            row("textures", whole(report.textureBytes / 1024.0) + " KiB") +
-           row("picture", std::to_string(report.width) + "x" + std::to_string(report.height) + ", " +
-                              std::to_string(report.samples) + " samples") +
+           row("picture", std::to_string(report.width) + "x" + std::to_string(report.height) +
+                              ", " + std::to_string(report.samples) + " samples") +
            row("GL errors, warnings",
                std::to_string(report.glErrors) + ", " + std::to_string(report.warnings)) +
            "</table>\n";

@@ -19,8 +19,8 @@ struct GalleryEntry
     Report report;
 };
 
-/// Writes an HTML page with each picture, its times and its plan beside it. The page needs no script
-/// and names the pictures relative to itself.
+/// Writes an HTML page with each picture, its times and its plan beside it. The page needs no
+/// script and names the pictures relative to itself.
 bool writeGalleryPage(const std::string& file, const std::vector<GalleryEntry>& entries,
                       std::string& error);
 

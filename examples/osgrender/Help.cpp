@@ -35,7 +35,7 @@ Camera
   --camera eye:X,Y,Z[;center:X,Y,Z;up:X,Y,Z;fov:DEG]
                        world coordinates; center is the scene's centre, up is 0,0,1 where left out;
                        fov is vertical
-  --camera-path FILE   OSG's .path, as osgviewer's z key saves it; also -p
+  --camera-path FILE   OSG's .path, as osgviewer's z key saves it; also -p. Stays at its end
   --speed FACTOR       of the camera path (default 1)
 
 Time

@@ -26,12 +26,13 @@ public:
     void apply(osg::Node& node) override
     {
         const osg::StateSet* state = node.getStateSet();
-        const auto* program =
-            state ? static_cast<const osg::Program*>(state->getAttribute(osg::StateAttribute::PROGRAM))
-                  : nullptr;
+        const auto* program = state ? static_cast<const osg::Program*>(
+                                          state->getAttribute(osg::StateAttribute::PROGRAM))
+                                    : nullptr;
         if (program)
             _programs.insert(program);
-        contents.paged |= dynamic_cast<osg::PagedLOD*>(&node) || dynamic_cast<osg::ProxyNode*>(&node);
+        contents.paged |=
+            dynamic_cast<osg::PagedLOD*>(&node) || dynamic_cast<osg::ProxyNode*>(&node);
         contents.drawables += node.asDrawable() != nullptr;
         contents.programs = static_cast<unsigned int>(_programs.size());
         traverse(node);
@@ -107,7 +108,8 @@ bool takeModels(osg::ArgumentParser& arguments, ModelNames& names, std::string& 
     {
         if (arguments.isOption(i))
         {
-            error = std::string("unknown switch '") + arguments[i] + "'; osgrender --help lists all";
+            error =
+                std::string("unknown switch '") + arguments[i] + "'; osgrender --help lists all";
             return false;
         }
         names.files.push_back(arguments[i]);
@@ -120,7 +122,8 @@ bool takeModels(osg::ArgumentParser& arguments, ModelNames& names, std::string& 
 osg::ref_ptr<osg::Node> readModels(const ModelNames& names, std::string& error)
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
-    const auto add = [&](const osg::ref_ptr<osg::Node>& node) {
+    const auto add = [&](const osg::ref_ptr<osg::Node>& node)
+    {
         if (node)
             group->addChild(node);
         return node.valid();

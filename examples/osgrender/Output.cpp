@@ -68,7 +68,8 @@ osg::ref_ptr<osg::Image> toBytes(const osg::Image& picture)
     bytes->allocateImage(picture.s(), picture.t(), 1, GL_RGB, GL_UNSIGNED_BYTE);
     for (int y = 0; y < picture.t(); ++y)
     {
-        const auto* from = reinterpret_cast<const float*>(picture.data(0, static_cast<unsigned>(y)));
+        const auto* from =
+            reinterpret_cast<const float*>(picture.data(0, static_cast<unsigned>(y)));
         unsigned char* to = bytes->data(0, static_cast<unsigned>(y));
         for (int i = 0; i < 3 * picture.s(); ++i)
         {
@@ -130,8 +131,7 @@ std::string fileOfFrame(const std::string& pattern, int frame)
     std::string number = std::to_string(frame);
     if (number.size() < place.digits)
         number.insert(0, place.digits - number.size(), '0');
-    return unescape(pattern.substr(0, place.begin)) + number +
-           unescape(pattern.substr(place.end));
+    return unescape(pattern.substr(0, place.begin)) + number + unescape(pattern.substr(place.end));
 }
 
 bool hasFrameNumber(const std::string& pattern)

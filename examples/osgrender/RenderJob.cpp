@@ -20,7 +20,10 @@ namespace
 /// Longer than any frame: a draw thread that died must not hang the script.
 constexpr double FrameLimitSeconds = 600.0;
 
-double now() { return osg::Timer::instance()->time_m(); }
+double now()
+{
+    return osg::Timer::instance()->time_m();
+}
 
 /// Collects the plans of the kits in a scene.
 class PlanCollector : public osg::NodeVisitor
@@ -219,8 +222,8 @@ bool RenderJob::waitForTiles(std::string& error)
         idle = isIdle(*pager) ? idle + 1 : 0;
         if (now() > end)
         {
-            OSG_WARN << "osgrender: the pager was still loading after "
-                     << _arguments.pagingSeconds << " s (--paging-limit), tiles may be missing\n";
+            OSG_WARN << "osgrender: the pager was still loading after " << _arguments.pagingSeconds
+                     << " s (--paging-limit), tiles may be missing\n";
             return true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -292,7 +295,8 @@ void RenderJob::gatherStatistics()
 {
     const osg::Stats& stats = *_viewer->getCamera()->getStats();
     const unsigned int frame = _viewer->getFrameStamp()->getFrameNumber();
-    const auto read = [&](const std::string& name) {
+    const auto read = [&](const std::string& name)
+    {
         double value = 0.0;
         stats.getAttribute(frame, name, value);
         return value;
@@ -300,7 +304,8 @@ void RenderJob::gatherStatistics()
     PlanCollector collector;
     _model->accept(collector);
     _report.plans = collector.plans;
-    const auto sum = [&](const std::string& name) {
+    const auto sum = [&](const std::string& name)
+    {
         double total = 0.0;
         for (const osgMultiRender::Plan& plan : _report.plans)
         {
@@ -325,7 +330,8 @@ void RenderJob::gatherStatistics()
 void RenderJob::gatherTimes(unsigned int firstFrame)
 {
     const osg::Stats& stats = *_viewer->getCamera()->getStats();
-    const auto read = [&](const std::string& name) {
+    const auto read = [&](const std::string& name)
+    {
         Times times;
         double seconds = 0.0;
         for (unsigned int i = firstFrame; i <= stats.getLatestFrameNumber(); ++i)
@@ -369,8 +375,7 @@ bool RenderJob::compareWithReference(std::string& error)
         error = "reference '" + _arguments.reference + "' can't be read";
         return false;
     }
-    const Comparison found =
-        compare(*_capture->getPicture(), *reference, _arguments.tolerance);
+    const Comparison found = compare(*_capture->getPicture(), *reference, _arguments.tolerance);
     if (!found.sameSize)
     {
         error = "reference '" + _arguments.reference + "' is " + std::to_string(reference->s()) +
@@ -379,12 +384,12 @@ bool RenderJob::compareWithReference(std::string& error)
         return false;
     }
     char finding[200];
-    std::snprintf(finding, sizeof(finding),
-                  "%.4g %% of the pixels off by more than %.4g (allowed %.4g %%), the worst by %.4g "
-                  "(allowed %.4g) at x %d, y %d from the bottom left",
-                  100.0 * found.share, _arguments.tolerance.threshold,
-                  100.0 * _arguments.tolerance.share, found.worst, _arguments.tolerance.limit,
-                  found.worstX, found.worstY);
+    std::snprintf(
+        finding, sizeof(finding),
+        "%.4g %% of the pixels off by more than %.4g (allowed %.4g %%), the worst by %.4g "
+        "(allowed %.4g) at x %d, y %d from the bottom left",
+        100.0 * found.share, _arguments.tolerance.threshold, 100.0 * _arguments.tolerance.share,
+        found.worst, _arguments.tolerance.limit, found.worstX, found.worstY);
     _report.comparison = finding;
     if (!found.within)
         error = "differs from '" + _arguments.reference + "': " + finding;

@@ -15,8 +15,8 @@ namespace osgrender
 
 /// One render: a viewer of its own, as osgviewer sets it up, from reading the model to the files.
 ///
-/// OSG's global settings (DisplaySettings, the readers' options) are set back first, so that renders
-/// of one process don't see each other.
+/// OSG's global settings (DisplaySettings, the readers' options) are set back first, so that
+/// renders of one process don't see each other.
 class RenderJob
 {
 public:

@@ -31,8 +31,8 @@ struct Report
     Renderer renderer;
     int width = 0, height = 0, samples = 0; ///< Samples as asked for.
     int frames = 0;
-    double loadMs = 0.0;       ///< Reading and optimizing the model.
-    double firstFrameMs = 0.0; ///< With all uploads and compilations.
+    double loadMs = 0.0;          ///< Reading and optimizing the model.
+    double firstFrameMs = 0.0;    ///< With all uploads and compilations.
     Times frame, cull, draw, gpu; ///< Of the timed frames; gpu is empty without timer queries.
 
     double passes = 0.0;

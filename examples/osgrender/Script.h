@@ -18,8 +18,9 @@ struct ScriptLine
 
 /// Reads a script: one render a line. `#` at the start of a word begins a comment, a backslash at
 /// the end of a line joins the next, '…' keeps everything as it is, "…" keeps spaces, and ${NAME}
-/// stands for a definition or else an environment variable. A line with a broken quote or an unknown
-/// name comes back with its error. Returns false and fills `error` when the file can't be read.
+/// stands for a definition or else an environment variable. A line with a broken quote or an
+/// unknown name comes back with its error. Returns false and fills `error` when the file can't be
+/// read.
 bool readScript(const std::string& file, const std::map<std::string, std::string>& definitions,
                 std::vector<ScriptLine>& lines, std::string& error);
 

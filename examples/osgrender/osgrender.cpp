@@ -83,7 +83,8 @@ void renderLine(const ScriptLine& line, const ProcessArguments& process, Backend
     if (own.backend != Backend::Auto || !own.scripts.empty() || !own.definitions.empty() ||
         !own.page.empty() || own.help)
     {
-        entry.error = "--backend, --html, --help, -D and @script concern the whole process, not a line";
+        entry.error =
+            "--backend, --html, --help, -D and @script concern the whole process, not a line";
         return;
     }
     if (!parseRender(own.rest, arguments, entry.error))
@@ -97,7 +98,8 @@ void renderLine(const ScriptLine& line, const ProcessArguments& process, Backend
         entry.picture = browserPicture(arguments);
 }
 
-bool readScripts(const ProcessArguments& process, std::vector<ScriptLine>& lines, std::string& error)
+bool readScripts(const ProcessArguments& process, std::vector<ScriptLine>& lines,
+                 std::string& error)
 {
     for (const std::string& script : process.scripts)
     {

@@ -69,14 +69,16 @@ TEST_F(OsgRenderScriptGLTest, linesDoNotSeeEachOthersSettings)
 
 TEST_F(OsgRenderScriptGLTest, pageShowsEachRenderAndItsFailure)
 {
-    _folder.write("s.txt", "a.osgt -o page/1.png --title 'One & <only>'\nnowhere.iv -o page/2.png\n");
+    _folder.write("s.txt",
+                  "a.osgt -o page/1.png --title 'One & <only>'\nnowhere.iv -o page/2.png\n");
     EXPECT_EQ(run({"@s.txt", "--html", "page/index.html"}).exitCode, 1);
     const std::string page = read("page/index.html");
     EXPECT_TRUE(has(page, "<img loading=\"lazy\" src=\"1.png\"")) << page;
     EXPECT_TRUE(has(page, "One &amp; &lt;only&gt;"));
     EXPECT_TRUE(has(page, "median "));
     EXPECT_TRUE(has(page, "1 draw calls"));
-    EXPECT_TRUE(has(page, "nowhere.iv&#39; can't be read") || has(page, "'nowhere.iv' can't be read"));
+    EXPECT_TRUE(has(page, "nowhere.iv&#39; can't be read") ||
+                has(page, "'nowhere.iv' can't be read"));
     EXPECT_FALSE(has(page, "2.png\""));
 }
 
