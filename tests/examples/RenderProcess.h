@@ -26,7 +26,7 @@ protected:
     void expectFails(const std::vector<std::string>& words, int exitCode,
                      const std::string& text) const;
 
-    /// A picture in the folder; null and a failure when it can't be read.
+    /// A picture in the folder; one pixel and a failure when it can't be read.
     osg::ref_ptr<osg::Image> picture(const std::string& name) const;
 
     bool exists(const std::string& name) const;
