@@ -14,9 +14,9 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_LitScene, new osgShadowVolume::LitScene,
         osg::ref_ptr<Serializer> serializer =
             new Serializer("Lighting", MyClass::Lighting::PIXEL, &MyClass::getLighting,
                            &MyClass::setLighting);
-        serializer->add("OFF", static_cast<int>(MyClass::Lighting::OFF));
-        serializer->add("VERTEX", static_cast<int>(MyClass::Lighting::VERTEX));
-        serializer->add("PIXEL", static_cast<int>(MyClass::Lighting::PIXEL));
+        serializer->add("OFF", MyClass::Lighting::OFF);
+        serializer->add("VERTEX", MyClass::Lighting::VERTEX);
+        serializer->add("PIXEL", MyClass::Lighting::PIXEL);
         wrapper->addSerializer(serializer.get(), osgDB::BaseSerializer::RW_ENUM);
     }
     {
@@ -24,8 +24,8 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_LitScene, new osgShadowVolume::LitScene,
         osg::ref_ptr<Serializer> serializer =
             new Serializer("LightScope", MyClass::LightScope::MODES, &MyClass::getLightScope,
                            &MyClass::setLightScope);
-        serializer->add("MODES", static_cast<int>(MyClass::LightScope::MODES));
-        serializer->add("ALL", static_cast<int>(MyClass::LightScope::ALL));
+        serializer->add("MODES", MyClass::LightScope::MODES);
+        serializer->add("ALL", MyClass::LightScope::ALL);
         wrapper->addSerializer(serializer.get(), osgDB::BaseSerializer::RW_ENUM);
     }
 }
