@@ -48,6 +48,21 @@ std::uint8_t colorModeOf(const osg::Material* material)
     }
 }
 
+bool isBlack(const osg::Vec4& color)
+{
+    return color.r() == 0.0f && color.g() == 0.0f && color.b() == 0.0f;
+}
+
+/// GL's own default material, too, has a black specular colour.
+bool hasSpecular(const osg::Material* material)
+{
+    if (!material)
+        return false;
+    return material->getColorMode() == osg::Material::SPECULAR ||
+           !isBlack(material->getSpecular(osg::Material::FRONT)) ||
+           !isBlack(material->getSpecular(osg::Material::BACK));
+}
+
 std::uint8_t typeOf(const osg::Light* light)
 {
     if (!light) // GL's own default: directional.
@@ -63,14 +78,16 @@ void fillLighting(const SurfaceState& state, LightingMode lighting, const GLLigh
     if (!state.isOn(SurfaceState::Lighting) || lighting == LightingMode::Off)
         return;
     key.lighting = lighting;
+    auto* material = as<osg::Material>(state.get(SurfaceState::Material));
+    key.colorMode = colorModeOf(material);
+    key.specular = hasSpecular(material);
     if (auto* model = as<osg::LightModel>(state.get(SurfaceState::LightModel)))
     {
         key.twoSided = model->getTwoSided();
-        key.localViewer = model->getLocalViewer();
+        key.localViewer = key.specular && model->getLocalViewer();
         key.separateSpecular =
-            model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
+            key.specular && model->getColorControl() == osg::LightModel::SEPARATE_SPECULAR_COLOR;
     }
-    key.colorMode = colorModeOf(as<osg::Material>(state.get(SurfaceState::Material)));
     if (lighting == LightingMode::Pixel)
     {
         auto* shade = as<osg::ShadeModel>(state.get(SurfaceState::ShadeModel));
@@ -475,7 +492,7 @@ bool SurfaceKey::operator==(const SurfaceKey& other) const
             return false;
     return lighting == other.lighting && normalScaling == other.normalScaling &&
            twoSided == other.twoSided && localViewer == other.localViewer &&
-           separateSpecular == other.separateSpecular && colorMode == other.colorMode &&
+           specular == other.specular && separateSpecular == other.separateSpecular && colorMode == other.colorMode &&
            colorSum == other.colorSum && flat == other.flat && fog == other.fog &&
            fogCoordinate == other.fogCoordinate && clip == other.clip && lights == other.lights &&
            kit == other.kit && program == other.program;
@@ -486,6 +503,7 @@ std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
     Hasher hash;
     for (std::uint64_t x : {std::uint64_t(key.lighting), std::uint64_t(key.normalScaling),
                             std::uint64_t(key.twoSided), std::uint64_t(key.localViewer),
+                            std::uint64_t(key.specular),
                             std::uint64_t(key.separateSpecular), std::uint64_t(key.colorMode),
                             std::uint64_t(key.colorSum), std::uint64_t(key.flat),
                             std::uint64_t(key.fog), std::uint64_t(key.fogCoordinate),
@@ -536,6 +554,7 @@ std::string toString(const SurfaceKey& key)
     flag(key.normalScaling, scalings[key.normalScaling]);
     flag(key.twoSided, "two-sided");
     flag(key.localViewer, "local-viewer");
+    flag(key.specular && !key.separateSpecular, "specular");
     flag(key.separateSpecular, "separate-specular");
     if (key.colorMode)
         text << " color=" << colors[key.colorMode];

@@ -123,7 +123,8 @@ struct OSGMULTIRENDER_EXPORT SurfaceKey
     std::uint8_t normalScaling = AsIs;
     std::uint8_t twoSided = 0;
     std::uint8_t localViewer = 0;
-    std::uint8_t separateSpecular = 0;
+    std::uint8_t specular = 0;         ///< 0: the material has no specular colour.
+    std::uint8_t separateSpecular = 0; ///< Only told apart where specular.
     std::uint8_t colorMode = ColorOff;
     std::uint8_t colorSum = 0;
     std::uint8_t flat = 0; ///< Only told apart with LightingMode::Pixel.

@@ -38,6 +38,7 @@ std::string definesOf(const SurfaceKey& key)
     define(key.normalScaling == SurfaceKey::Rescaled, "OSGMR_RESCALE");
     define(key.twoSided, "OSGMR_TWO_SIDED");
     define(key.localViewer, "OSGMR_LOCAL_VIEWER");
+    define(key.specular, "OSGMR_SPECULAR");
     define(key.separateSpecular, "OSGMR_SEPARATE_SPECULAR");
     define(key.colorSum, "OSGMR_COLOR_SUM");
     define(key.fogCoordinate, "OSGMR_FOG_COORDINATE");

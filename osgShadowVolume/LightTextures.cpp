@@ -12,7 +12,7 @@ namespace osgShadowVolume
 namespace
 {
 
-constexpr int texelsPerLight = 6;
+constexpr int texelsPerLight = FloatsPerLight / 4;
 constexpr int lightsPerRow = 256;
 constexpr int listPerRow = 1024;
 
@@ -54,10 +54,12 @@ void update(osg::Texture2D& texture, int width, int rows, GLint internalFormat, 
     image->dirty();
 }
 
-void pack(const EyeLight& light, float* to)
+} // namespace
+
+void packLight(const EyeLight& light, float* to)
 {
     const float cosine = static_cast<float>(std::cos(glm::radians(double(light.spotCutoffDegrees))));
-    const float values[texelsPerLight * 4] = {
+    const float values[FloatsPerLight] = {
         float(light.position.x), float(light.position.y), float(light.position.z), float(light.type),
         light.ambient.x, light.ambient.y, light.ambient.z, light.constantAttenuation,
         light.diffuse.x, light.diffuse.y, light.diffuse.z, light.linearAttenuation,
@@ -66,8 +68,6 @@ void pack(const EyeLight& light, float* to)
         cosine, light.spotExponent, 0.0f, 0.0f, 0.0f};
     std::memcpy(to, values, sizeof(values));
 }
-
-} // namespace
 
 LitScene::LightTextures::Context::Context()
     : osg::Referenced(true), lights(makeTexture(GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT)),
@@ -83,9 +83,9 @@ void LitScene::LightTextures::Context::set(const std::vector<const EyeLight*>& e
     // Rows are whole: the tail of the last one stays as it was, and nothing reads it.
     const int lightRows = std::max<int>(1, int((eyeLights.size() + lightsPerRow - 1) / lightsPerRow));
     const int lightsInRow = lightRows > 1 ? lightsPerRow : std::max<int>(1, int(eyeLights.size()));
-    std::vector<float> data(std::size_t(lightRows) * lightsInRow * texelsPerLight * 4, 0.0f);
+    std::vector<float> data(std::size_t(lightRows) * lightsInRow * FloatsPerLight, 0.0f);
     for (std::size_t i = 0; i < eyeLights.size(); ++i)
-        pack(*eyeLights[i], &data[i * texelsPerLight * 4]);
+        packLight(*eyeLights[i], &data[i * FloatsPerLight]);
     update(*lights, lightsInRow * texelsPerLight, lightRows, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT,
            data.data(), data.size() * sizeof(float));
 

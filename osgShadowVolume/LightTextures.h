@@ -13,6 +13,10 @@
 namespace osgShadowVolume
 {
 
+/// Floats of a light in the layout of shaders/lights.frag: six vec4.
+constexpr int FloatsPerLight = 24;
+void packLight(const EyeLight& light, float* to);
+
 /// The light data of a LitScene on the GPU, one set a graphics context.
 ///
 /// The layout is that of shaders/lights.frag. Textures exist only once something was set, and are

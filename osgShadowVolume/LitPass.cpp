@@ -23,12 +23,23 @@ namespace
 
 constexpr std::size_t maxListed = 32;     ///< Lights of a state up to which each leaf has its list.
 constexpr double budget = 0.5 / 255.0;    ///< What all left-out lights may add to a pixel.
+constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
 constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
+
+/// Bits of SurfaceKey::kit. Uniform lights: their number from bit 4, two bits for the type of each
+/// from bit 8.
 enum KitBits : std::uint32_t
 {
     Listed = 1,
-    Gridded = 2
+    Gridded = 2,
+    NumberShift = 4,
+    TypesShift = 8
 };
+
+std::uint32_t numberOfUniformLights(std::uint32_t kit)
+{
+    return (kit >> NumberShift) & 15u;
+}
 
 glm::vec3 toGlm(const osg::Vec4& v)
 {
@@ -265,13 +276,43 @@ void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& lea
     }
     if (reaching.empty())
         return; // a program without lights
-    key.kit = Listed;
+    // Equal types side by side, so that few orders of the same lights make variants.
+    std::stable_sort(reaching.begin(), reaching.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return _lights[a].type < _lights[b].type;
+    });
+    if (reaching.size() <= maxUniform)
+    {
+        key.kit = static_cast<std::uint32_t>(reaching.size()) << NumberShift;
+        for (std::size_t i = 0; i < reaching.size(); ++i)
+            key.kit |= std::uint32_t(_lights[reaching[i]].type) << (TypesShift + 2 * i);
+    }
+    else
+        key.kit = Listed;
     number = listOf(std::move(reaching));
+}
+
+bool LitPass::isUniform(const List& list) const
+{
+    return !list.grid && list.lights.size() <= maxUniform;
 }
 
 void LitPass::end(osg::RenderInfo& renderInfo)
 {
     if (_scene.getLighting() != LitScene::Lighting::PIXEL || _lists.empty())
+        return;
+    bool needsTextures = false;
+    for (List& list : _lists)
+    {
+        if (!isUniform(list))
+        {
+            needsTextures = true;
+            continue;
+        }
+        list.uniforms.resize(list.lights.size() * FloatsPerLight);
+        for (std::size_t i = 0; i < list.lights.size(); ++i)
+            packLight(_lights[list.lights[i]], &list.uniforms[i * FloatsPerLight]);
+    }
+    if (!needsTextures)
         return;
     // Only lights that some leaf uses go to the GPU.
     std::vector<const EyeLight*> lights;
@@ -285,6 +326,8 @@ void LitPass::end(osg::RenderInfo& renderInfo)
     std::vector<std::int32_t> data;
     for (List& list : _lists)
     {
+        if (isUniform(list))
+            continue;
         list.offset = static_cast<int>(data.size());
         for (std::uint32_t light : list.lights)
             data.push_back(index[light]);
@@ -316,11 +359,25 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
                            "inout vec3 diffuse, inout vec3 specular)\n{\n}\n";
         return snippet;
     }
+    const std::uint32_t uniforms = numberOfUniformLights(key.kit);
     if (key.kit & Gridded)
         snippet.fragment = "#define OSGSV_GRID\n";
+    if (uniforms)
+        snippet.fragment = "#define OSGSV_UNIFORM " + std::to_string(uniforms) + "\n";
     osg::ref_ptr<osg::Shader> shader = osgDB::readRefShaderFileWithFallback(
         osg::Shader::FRAGMENT, "osgShadowVolume/lights.frag", shaders::lights_frag);
     snippet.fragment += shader->getShaderSource();
+    if (uniforms)
+    {
+        snippet.fragment += "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
+                            "inout vec3 diffuse, inout vec3 specular)\n{\n";
+        for (std::uint32_t i = 0; i < uniforms; ++i)
+            snippet.fragment += "    osgsv_addLight(" + std::to_string(i) + ", " +
+                                std::to_string((key.kit >> (TypesShift + 2 * i)) & 3u) +
+                                ".0, surface, ambient, diffuse, specular);\n";
+        snippet.fragment += "}\n";
+        return snippet;
+    }
     snippet.samplers = {{"osgsv_lights", LitScene::LightTextures::LightsUnit},
                         {"osgsv_lists", LitScene::LightTextures::ListsUnit}};
     return snippet;
@@ -331,9 +388,15 @@ const osg::StateSet* LitPass::getStateSet() const
     return _textures ? _textures->stateSet.get() : nullptr;
 }
 
-void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant&,
+void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                     std::uint32_t number)
 {
+    const auto [applied, isNew] = _applied.emplace(&variant, number);
+    if (!isNew && applied->second == number)
+        return;
+    applied->second = number;
+    // osg::Program trims "[0]" off the names of arrays.
+    static const unsigned int uniforms = osg::Uniform::getNameID("osgsv_light");
     static const unsigned int range = osg::Uniform::getNameID("osgsv_range");
     static const unsigned int origin = osg::Uniform::getNameID("osgsv_gridOrigin");
     static const unsigned int scale = osg::Uniform::getNameID("osgsv_gridScale");
@@ -344,6 +407,12 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
     const List& list = _lists[number];
+    if (isUniform(list))
+    {
+        gl->glUniform4fv(program.getUniformLocation(uniforms), int(list.uniforms.size() / 4),
+                         list.uniforms.data());
+        return;
+    }
     gl->glUniform2i(program.getUniformLocation(range), list.offset, int(list.lights.size()));
     if (!list.grid)
         return;

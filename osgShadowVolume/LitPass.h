@@ -14,8 +14,8 @@ namespace osgShadowVolume
 
 /// Lights the leaves of a LitScene in one view of one frame.
 ///
-/// Each leaf gets the list of the lights that reach it; where a state has many lights, its leaves
-/// share a grid instead. What is left out adds less than half a step of 8 bits to any pixel.
+/// Each leaf gets the list of the lights that reach it, as uniforms where they are few; where a state
+/// has many lights, its leaves share a grid instead. What is left out adds less than half a step of 8 bits to any pixel.
 class LitPass : public osgMultiRender::SurfacePass
 {
 public:
@@ -46,6 +46,7 @@ private:
     {
         std::vector<std::uint32_t> lights;
         int offset = 0;
+        std::vector<float> uniforms; ///< The lights themselves, where they are few.
         const LightSet* grid = nullptr;
         int gridCells = 0;
     };
@@ -59,6 +60,7 @@ private:
     void fillReach(LightSet& set) const;
     void makeGrid(LightSet& set);
     std::uint32_t listOf(std::vector<std::uint32_t> lights);
+    bool isUniform(const List& list) const;
 
     const LitScene& _scene;
     std::vector<EyeLight> _lights;
@@ -70,6 +72,8 @@ private:
     std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
     std::vector<List> _lists;
+    /// The list that each program's uniforms hold.
+    std::map<const osgMultiRender::SurfaceVariant*, std::uint32_t> _applied;
     osg::ref_ptr<LitScene::LightTextures::Context> _textures; ///< Null while no leaf needs a light.
 };
 

@@ -39,19 +39,21 @@ void osgmr_addLight(gl_LightSourceParameters light, int type, vec3 normal, float
                            : light.spotExponent == 0.0 ? 1.0 : pow(max(c, 0.0), light.spotExponent);
         }
     }
-#ifdef OSGMR_LOCAL_VIEWER
-    vec3 toEye = normalize(-osgmr_eye.xyz);
-#else
-    vec3 toEye = vec3(0.0, 0.0, 1.0);
-#endif
     float nl = dot(normal, toLight);
     osgmr_ambientLight += attenuation * light.ambient.rgb;
     if (nl > 0.0)
     {
         osgmr_diffuseLight += attenuation * nl * light.diffuse.rgb;
+#ifdef OSGMR_SPECULAR
+#ifdef OSGMR_LOCAL_VIEWER
+        vec3 toEye = normalize(-osgmr_eye.xyz);
+#else
+        vec3 toEye = vec3(0.0, 0.0, 1.0);
+#endif
         float nh = dot(normal, normalize(toLight + toEye));
         float power = shininess == 0.0 ? 1.0 : nh > 0.0 ? pow(nh, shininess) : 0.0;
         osgmr_specularLight += attenuation * power * light.specular.rgb;
+#endif
     }
 }
 
