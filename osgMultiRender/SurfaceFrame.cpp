@@ -208,21 +208,23 @@ void SurfaceFrame::forEachLight(
     visit(_stage->getPositionalStateContainer(), nullptr);
 }
 
-osg::BoundingBox SurfaceFrame::getEyeBounds(bool& unbounded) const
+osg::BoundingBoxd SurfaceFrame::getBounds(const osg::Matrixd& matrix, bool& unbounded) const
 {
-    osg::BoundingBox bounds;
+    osg::BoundingBoxd bounds;
     unbounded = false;
     for (const auto& bin : _bins)
         for (const osgUtil::RenderLeaf* leaf : bin)
         {
             const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
             if (!box.valid())
+            {
                 unbounded = true;
-            else
-                for (unsigned int corner = 0; corner < 8; ++corner)
-                    bounds.expandBy(leaf->_modelview.valid()
-                                        ? box.corner(corner) * *leaf->_modelview
-                                        : box.corner(corner));
+                continue;
+            }
+            const osg::Matrixd toFrame =
+                leaf->_modelview.valid() ? osg::Matrixd(*leaf->_modelview) * matrix : matrix;
+            for (unsigned int corner = 0; corner < 8; ++corner)
+                bounds.expandBy(osg::Vec3d(box.corner(corner)) * toFrame);
         }
     return bounds;
 }

@@ -10,7 +10,7 @@ namespace osgShadowVolume
 namespace
 {
 
-constexpr int maxCellsPerAxis = 64;
+constexpr int maxCellsPerAxis = 256;
 
 /// About two cells a light, shared out along the axes by the box's extents.
 glm::ivec3 sizeFor(std::size_t lights, const glm::dvec3& extent)

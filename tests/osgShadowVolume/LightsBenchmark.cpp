@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Frame time against the number of lights, over a floor whose lights share out the same total light.
+// Frame time against the number of lights: lamps that hang over a floor, as many more and as much
+// smaller as they are nearer to each other.
 //
-//   osgShadowVolume.LightsBenchmark [--size WxH] [--rounds N] [--csv file]
+//   osgShadowVolume.LightsBenchmark [--size WxH] [--rounds N] [--most N] [--points] [--tolerance t]
+//                                   [--csv file]
+//
+// Lamps are spots of 60 degrees; with --points they shine everywhere, and then only a tolerance can leave
+// any out: the far ones add up.
 //
 // Each number of lights is drawn at rest and with a moving camera (then light data and grid are made
 // anew each frame), in turns; printed are medians and what the plan says.
@@ -22,9 +27,10 @@
 namespace
 {
 
-osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights)
+osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights, bool points, double tolerance)
 {
     osg::ref_ptr<osgShadowVolume::LitScene> scene = new osgShadowVolume::LitScene;
+    scene->setLightTolerance(tolerance);
     scene->setLightScope(osgShadowVolume::LitScene::LightScope::ALL);
     osg::Geometry* floor = osg::createTexturedQuadGeometry(
         osg::Vec3(-50.0f, -50.0f, 0.0f), osg::Vec3(100.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 100.0f, 0.0f));
@@ -37,7 +43,9 @@ osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights)
     for (unsigned int i = 0; i < lights; ++i)
     {
         osg::ref_ptr<osg::Light> light = new osg::Light(i);
-        light->setPosition(osg::Vec4(at(random), at(random), 0.3f * spacing, 1.0f));
+        light->setPosition(osg::Vec4(at(random), at(random), 0.5f * spacing, 1.0f));
+        light->setDirection(osg::Vec3(0.0f, 0.0f, -1.0f));
+        light->setSpotCutoff(points ? 180.0f : 60.0f);
         light->setAmbient(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
         light->setDiffuse(osg::Vec4(hue(random), hue(random), hue(random), 1.0f));
         light->setSpecular(osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f));
@@ -65,6 +73,9 @@ int main(int argc, char** argv)
     int rounds = 7, width = 0, height = 0;
     arguments.read("--size", size);
     arguments.read("--rounds", rounds);
+    const bool points = arguments.read("--points");
+    double tolerance = 0.5 / 255.0;
+    arguments.read("--tolerance", tolerance);
     arguments.read("--csv", csvName);
     if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2)
         return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
@@ -76,10 +87,14 @@ int main(int argc, char** argv)
         return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
     viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
 
-    const std::vector<unsigned int> numbers = {1, 8, 9, 32, 33, 64, 256, 1024, 4097, 16384, 65536};
+    std::vector<unsigned int> numbers = {1, 8, 9, 32, 33, 64, 256, 1024, 4097, 16384, 65536};
+    int most = 65536;
+    arguments.read("--most", most);
+    while (numbers.size() > 1 && numbers.back() > static_cast<unsigned int>(most))
+        numbers.pop_back();
     std::vector<osg::ref_ptr<osgShadowVolume::LitScene>> scenes;
     for (unsigned int number : numbers)
-        scenes.push_back(makeScene(number));
+        scenes.push_back(makeScene(number, points, tolerance));
     const auto cameraAt = [&](double shift) {
         return support::CameraSpec::perspective(osg::Vec3d(shift, -70.0, 50.0), osg::Vec3d(), osg::Vec3d(0, 0, 1),
                                                 45.0, double(width) / height, 1.0, 500.0);
