@@ -204,7 +204,8 @@ osg::ref_ptr<osg::Geometry> sphereGeometry()
 osg::ref_ptr<osg::Group> ReferenceScene::createNode() const
 {
     osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->addChild(shape == Shape::Plane ? planeGeometry() : sphereGeometry());
+    static const osg::ref_ptr<osg::Geometry> plane = planeGeometry(), sphere = sphereGeometry();
+    root->addChild(shape == Shape::Plane ? plane : sphere);
     osg::StateSet* state = root->getOrCreateStateSet();
     osg::ref_ptr<osg::Material> material = new osg::Material;
     material->setAmbient(osg::Material::FRONT_AND_BACK, ambient);
