@@ -50,7 +50,8 @@ void makeSpot(osg::Light& l, float cutoff, float exponent)
     makePoint(l);
     l.setAmbient(osg::Vec4(1, 0.6f, 0.3f, 1));
     const bool wide = cutoff >= 90.0f;
-    const osg::Vec3 vertex(1.05f, 1.6f, 0.8f);
+    // a cone of no width is aimed beside the vertex: on it, the last bit of a cosine would decide
+    const osg::Vec3 vertex(cutoff == 0.0f ? 0.95f : 1.05f, 1.6f, 0.8f);
     const osg::Vec3 place = wide ? osg::Vec3(-0.2f, -0.4f, 0.1f) : osg::Vec3(-0.5f, -1.8f, 0.6f);
     l.setPosition(osg::Vec4(place, 1.0f));
     l.setDirection(vertex - place);

@@ -63,7 +63,7 @@ TEST(FeatureScenes, areManyAndTheirNamesAreUnique)
     std::set<std::string> names;
     for (const FeatureScene& scene : featureScenes())
         EXPECT_TRUE(names.insert(scene.family + "." + scene.name).second) << scene.name;
-    EXPECT_GE(names.size(), 120u);
+    EXPECT_GE(names.size(), 300u);
 }
 
 TEST_P(FeatureFamily, showsSomethingTheSameEachTimeAndNoTwoAreAlike)

@@ -111,7 +111,7 @@ void addNormals(Family& family)
     const osg::Matrix same, twice = osg::Matrix::scale(0.7, 0.7, 0.7),
                             uneven = osg::Matrix::scale(1.2, 0.6, 0.8),
                             mirrored = osg::Matrix::scale(-1, 1, 0.9);
-    const Subject unit, unevenNormals = with(Subject::Colors::None, Normals::Uneven);
+    const Subject unevenNormals = with(Subject::Colors::None, Normals::Uneven);
     family.add("unit", modes(GL_NONE, same));
     family.add("scaled", modes(GL_NONE, twice));
     family.add("scaledNormalize", modes(GL_NORMALIZE, twice));

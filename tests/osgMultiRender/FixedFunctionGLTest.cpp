@@ -73,22 +73,26 @@ void expectFixedFunctionPicture(osg::Node* node, const support::CameraSpec& came
     EXPECT_TRUE(Oracle(actual, expected, "fixedFunction." + name));
 }
 
-/// Finds arrays with fewer elements than there are vertices: what GL reads beyond their end is
-/// undefined, so that not even two pictures of the fixed function need be equal.
-class ShortArrays : public osg::NodeVisitor
+/// Makes colors that are none black. Where a model has fewer materials than its binding asks for
+/// (simple/indexedTriangleMesh.iv), osgdb_iv fills the array from memory that nobody wrote.
+class TameColors : public osg::NodeVisitor
 {
 public:
-    ShortArrays() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+    TameColors() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
 
     void apply(osg::Geometry& geometry) override
     {
-        const osg::Array* vertices = geometry.getVertexArray();
-        for (const osg::Array* array : {geometry.getNormalArray(), geometry.getColorArray()})
-            found = found || (array && array->getBinding() == osg::Array::BIND_PER_VERTEX &&
-                              array->getNumElements() < vertices->getNumElements());
+        auto* colors = dynamic_cast<osg::Vec4Array*>(geometry.getColorArray());
+        for (unsigned int i = 0; colors && i < colors->size(); ++i)
+        {
+            for (unsigned int c = 0; c < 4; ++c)
+            {
+                float& value = (*colors)[i][c];
+                if (!(value >= 0.0f && value <= 1.0f))
+                    value = 0.0f;
+            }
+        }
     }
-
-    bool found = false;
 };
 
 std::set<std::string> families()
@@ -140,11 +144,8 @@ TEST_P(InventorModel, hasThePictureOfTheFixedFunction)
     const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(GetParam());
     ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
     support::NotifyCapture notify;
-    ShortArrays arrays;
-    model->accept(arrays);
-    if (arrays.found)
-        GTEST_SKIP()
-            << "NOT COMPARED: it has fewer colors than vertices; GL's picture is undefined";
+    TameColors tame;
+    model->accept(tame);
     const auto camera = support::CameraSpec::overview(*model, double(Width) / Height);
     expectFixedFunctionPicture(model, camera, caseName(GetParam()));
 }
