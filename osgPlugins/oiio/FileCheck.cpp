@@ -158,6 +158,7 @@ struct IffPicture
     int channelBytes = 0;
     int tileWidth = 0; ///< Of the first tile, which sets the grid.
     int tileHeight = 0;
+    std::int64_t tiles = 0;
 };
 
 std::string checkIffTile(const Bytes& bytes, std::uint64_t at, std::uint64_t size,
@@ -177,6 +178,7 @@ std::string checkIffTile(const Bytes& bytes, std::uint64_t at, std::uint64_t siz
     {
         return "damaged: a tile lies off the grid";
     }
+    ++picture.tiles;
     const std::uint64_t pixels = std::uint64_t(right - left + 1) * (bottom - top + 1);
     std::uint64_t from = at + 8;
     if (size - 8 >= pixels * picture.channelBytes)
@@ -237,6 +239,13 @@ std::string checkIff(const std::string& text)
             }
         }
         at += 8 + (size + 3) / 4 * 4;
+    }
+    const auto share = [](std::int64_t whole, std::int64_t part)
+    { return part ? (whole + part - 1) / part : 0; };
+    if (!picture.tiles || picture.tiles != share(picture.width, picture.tileWidth) *
+                                               share(picture.height, picture.tileHeight))
+    {
+        return "damaged: tiles are missing";
     }
     return {};
 }
