@@ -1,5 +1,6 @@
-# cmake -DNAMESPACE=<ns> -DFILES=<a;b> -DOUTPUT=<header> -P EmbedShaders.cmake
+# cmake -DNAMESPACE=<ns> -DFILES=<a|b> -DOUTPUT=<header> -P EmbedShaders.cmake
 # Writes each file as an inline constexpr raw string named after the file.
+string(REPLACE "|" ";" FILES "${FILES}")
 foreach(file IN LISTS FILES)
     file(READ "${file}" text)
     string(LENGTH "${text}" size)

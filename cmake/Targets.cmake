@@ -23,9 +23,9 @@ function(osgkits_embed_shaders target)
     endif()
     set(header ${PROJECT_BINARY_DIR}/include/${target}/Shaders.h)
     list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/shaders/ OUTPUT_VARIABLE files)
-    string(REPLACE ";" "\\;" escaped "${files}")
+    list(JOIN files "|" joined)
     add_custom_command(OUTPUT ${header}
-        COMMAND ${CMAKE_COMMAND} -DNAMESPACE=${target}::shaders "-DFILES=${escaped}"
+        COMMAND ${CMAKE_COMMAND} -DNAMESPACE=${target}::shaders "-DFILES=${joined}"
             -DOUTPUT=${header} -P ${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake
         DEPENDS ${files} ${PROJECT_SOURCE_DIR}/cmake/EmbedShaders.cmake VERBATIM)
     target_sources(${target} PRIVATE ${header})
@@ -38,7 +38,7 @@ function(osgkits_add_nodekit name)
     add_library(osgKits::${name} ALIAS ${name})
     osgkits_target_options(${name})
     set_target_properties(${name} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON
-        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR})
+        VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR} INSTALL_RPATH "$ORIGIN")
     generate_export_header(${name} EXPORT_FILE_NAME ${PROJECT_BINARY_DIR}/include/${name}/Export.h)
     target_include_directories(${name} PUBLIC
         $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>
@@ -83,10 +83,11 @@ function(osgkits_add_test kit name)
     add_executable(${target} ${name}.cpp ${arg_SOURCES})
     osgkits_target_options(${target})
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-    target_link_libraries(${target} PRIVATE osgKitsTestSupport ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+    target_link_libraries(${target} PRIVATE osgKitsTestSupport ${arg_LIBRARIES} GTest::gtest)
     if(name MATCHES "Benchmark$")
         return()
     endif()
+    target_link_libraries(${target} PRIVATE GTest::gtest_main)
     if(NOT arg_TIMEOUT)
         set(arg_TIMEOUT 300)
     endif()

@@ -1,0 +1,500 @@
+// SPDX-License-Identifier: MIT
+#include <osgMultiRender/SurfaceFrame.h>
+
+#include <osgMultiRender/ProgramWrap.h>
+#include <osgMultiRender/WithheldLight.h>
+
+#include <osg/GLExtensions>
+#include <osg/Notify>
+#include <osg/Timer>
+#include <osgUtil/PositionalStateContainer>
+
+#include <algorithm>
+#include <set>
+
+namespace osgMultiRender
+{
+
+namespace
+{
+
+/// Stands in a bin of the view for leaves of the private stage.
+///
+/// Draws one leaf where `single` is set, else a whole bin. Counts as one dynamic leaf if any that it
+/// stands for is dynamic, and the leaves themselves are drawn without counting: so the update may go
+/// on exactly when the last pass has been drawn, however many passes there are.
+class ProxyLeaf : public osgUtil::RenderLeaf
+{
+public:
+    ProxyLeaf(SurfaceFrame& frame, std::size_t bin, osgUtil::RenderLeaf* single,
+              osg::Drawable* drawable, osg::RefMatrix* projection, osg::RefMatrix* modelview)
+        : osgUtil::RenderLeaf(drawable, projection, modelview), _frame(&frame), _bin(bin),
+          _single(single)
+    {
+        if (single)
+        {
+            _depth = single->_depth;
+            _traversalOrderNumber = single->_traversalOrderNumber;
+            _dynamic = single->_dynamic;
+        }
+        else
+            for (const osgUtil::RenderLeaf* leaf : frame.getLeaves(bin))
+                _dynamic = _dynamic || leaf->_dynamic;
+    }
+
+    void render(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf* previous) override
+    {
+        osg::State& state = *renderInfo.getState();
+        if (state.getAbortRendering())
+            return;
+        if (previous)
+            osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
+        if (_single)
+            _frame->drawLeaf(renderInfo, *_single);
+        else
+            _frame->drawBin(renderInfo, _bin);
+        // The next leaf starts from our StateGraph.
+        osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
+        if (_dynamic)
+            state.decrementDynamicObjectCount();
+    }
+
+private:
+    osg::ref_ptr<SurfaceFrame> _frame;
+    std::size_t _bin;
+    osg::ref_ptr<osgUtil::RenderLeaf> _single;
+};
+
+/// What viewer statistics see of a bin: the primitives of all its leaves.
+class BinDrawable : public osg::Drawable
+{
+public:
+    explicit BinDrawable(const std::vector<osgUtil::RenderLeaf*>& leaves)
+    {
+        _leaves.reserve(leaves.size());
+        for (osgUtil::RenderLeaf* leaf : leaves)
+            _leaves.push_back(leaf->_drawable.get());
+    }
+    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
+    void accept(osg::PrimitiveFunctor& functor) const override
+    {
+        for (const auto& leaf : _leaves)
+            leaf->accept(functor);
+    }
+
+private:
+    std::vector<osg::ref_ptr<osg::Drawable>> _leaves;
+};
+
+/// The name under which a StateSet of the leaf's path asked for the bin.
+std::string binNameOf(const osgUtil::RenderLeaf& leaf, int number)
+{
+    for (const osgUtil::StateGraph* graph = leaf._parent; graph; graph = graph->_parent)
+    {
+        const osg::StateSet* stateSet = graph->getStateSet();
+        if (stateSet && stateSet->useRenderBinDetails() && stateSet->getBinNumber() == number)
+            return stateSet->getBinName();
+    }
+    return "RenderBin";
+}
+
+const osgUtil::RenderLeaf* anyLeafOf(const osgUtil::RenderBin& bin)
+{
+    for (const osgUtil::StateGraph* graph : const_cast<osgUtil::RenderBin&>(bin).getStateGraphList())
+        if (!graph->_leaves.empty())
+            return graph->_leaves.front().get();
+    for (const auto& [number, inner] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList())
+        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
+            return leaf;
+    return nullptr;
+}
+
+bool isOrdered(const osgUtil::RenderBin& bin)
+{
+    return bin.getSortMode() != osgUtil::RenderBin::SORT_BY_STATE &&
+           bin.getSortMode() != osgUtil::RenderBin::SORT_BY_STATE_THEN_FRONT_TO_BACK;
+}
+
+} // namespace
+
+SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil::RenderStage& stage)
+    : osg::Referenced(true), _group(&group), _bin(&bin), _stage(bin.getStage()), _private(&stage),
+      _pass(group.createPass())
+{
+    // Cameras nested in the subgraph take these from the stage that they find.
+    _private->setPositionalStateContainer(_stage->getPositionalStateContainer());
+    _private->setInheritedPositionalStateContainer(_stage->getInheritedPositionalStateContainer());
+    _private->setInheritedPositionalStateContainerMatrix(
+        _stage->getInheritedPositionalStateContainerMatrix());
+    _private->setViewport(_stage->getViewport());
+    _private->setInitialViewMatrix(_stage->getInitialViewMatrix());
+    _private->setDrawBuffer(_stage->getDrawBuffer(), _stage->getDrawBufferApplyMask());
+    _private->setReadBuffer(_stage->getReadBuffer(), _stage->getReadBufferApplyMask());
+    _private->setClearMask(_stage->getClearMask());
+    _private->setClearColor(_stage->getClearColor());
+    _private->setClearDepth(_stage->getClearDepth());
+    _private->setClearStencil(_stage->getClearStencil());
+    _private->setClearAccum(_stage->getClearAccum());
+    _private->setColorMask(_stage->getColorMask());
+    _private->setCamera(_stage->getCamera());
+}
+
+SurfaceFrame::~SurfaceFrame() = default;
+
+void SurfaceFrame::insertProxies(osgUtil::CullVisitor& visitor)
+{
+    for (const auto& [order, stage] : _private->getPreRenderList())
+        _stage->addPreRenderStage(stage.get(), order);
+    for (const auto& [order, stage] : _private->getPostRenderList())
+        _stage->addPostRenderStage(stage.get(), order);
+    mirror(visitor, *_private, *_bin, 0);
+}
+
+void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from,
+                          osgUtil::RenderBin& to, int path)
+{
+    std::vector<osgUtil::RenderLeaf*> leaves;
+    for (osgUtil::StateGraph* graph : from.getStateGraphList())
+        for (const auto& leaf : graph->_leaves)
+            leaves.push_back(leaf.get());
+    if (!leaves.empty())
+    {
+        _bins.push_back(std::move(leaves));
+        const std::size_t bin = _bins.size() - 1;
+        const auto* stateSet = _group->getProxyStateSet(path);
+        osgUtil::StateGraph* graph = visitor.getCurrentStateGraph()->find_or_insert(stateSet);
+        if (graph->leaves_empty())
+            to.addStateGraph(graph);
+        if (isOrdered(to))
+            for (osgUtil::RenderLeaf* leaf : _bins[bin])
+                graph->addLeaf(new ProxyLeaf(*this, bin, leaf, leaf->_drawable.get(),
+                                             leaf->_projection.get(), leaf->_modelview.get()));
+        else
+            graph->addLeaf(new ProxyLeaf(*this, bin, nullptr, new BinDrawable(_bins[bin]),
+                                         _bins[bin][0]->_projection.get(),
+                                         _bins[bin][0]->_modelview.get()));
+    }
+    for (const auto& [number, bin] : from.getRenderBinList())
+        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*bin))
+            mirror(visitor, *bin, *to.find_or_insert(number, binNameOf(*leaf, number)),
+                   path * 1021 + number + 1);
+}
+
+void SurfaceFrame::forEachLight(
+    const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const
+{
+    const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post) {
+        if (!container)
+            return;
+        for (const auto& [attribute, matrix] : container->getAttrMatrixList())
+        {
+            const osg::StateAttribute* any = attribute.get();
+            auto* light = dynamic_cast<const osg::Light*>(any);
+            if (auto* withheld = dynamic_cast<const WithheldLight*>(any))
+                light = withheld->getLight();
+            if (!light)
+                continue;
+            if (!post)
+                f(*light, matrix.get());
+            else
+            {
+                const osg::Matrix product = matrix.valid() ? *matrix * *post : *post;
+                f(*light, &product);
+            }
+        }
+    };
+    visit(_stage->getInheritedPositionalStateContainer(),
+          &_stage->getInheritedPositionalStateContainerMatrix());
+    visit(_stage->getPositionalStateContainer(), nullptr);
+}
+
+osg::BoundingBox SurfaceFrame::getEyeBounds(bool& unbounded) const
+{
+    osg::BoundingBox bounds;
+    unbounded = false;
+    for (const auto& bin : _bins)
+        for (const osgUtil::RenderLeaf* leaf : bin)
+        {
+            const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+            if (!box.valid())
+                unbounded = true;
+            else
+                for (unsigned int corner = 0; corner < 8; ++corner)
+                    bounds.expandBy(leaf->_modelview.valid()
+                                        ? box.corner(corner) * *leaf->_modelview
+                                        : box.corner(corner));
+        }
+    return bounds;
+}
+
+const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
+{
+    const auto found = _states.find(graph);
+    if (found != _states.end())
+        return found->second;
+    SurfaceState state;
+    if (graph->_parent)
+        state = stateOf(graph->_parent);
+    if (graph->getStateSet())
+        state.apply(*graph->getStateSet());
+    return _states.emplace(graph, std::move(state)).first->second;
+}
+
+SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Program* program)
+{
+    osg::ref_ptr<SurfaceVariant>& variant = _variants[key];
+    if (!variant)
+    {
+        bool made = false;
+        variant = SurfaceVariantCache::instance().get(
+            _group->className(), key,
+            [&] {
+                return program ? new SurfaceVariant(key, *program)
+                               : new SurfaceVariant(key, _pass->makeSnippet(key), _languageVersion);
+            },
+            made);
+        _compiled += made;
+    }
+    return variant.get();
+}
+
+/// The variant of a model's own Program; its texts are looked at once a frame, so that a change shows.
+SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
+{
+    const auto [found, isNew] = _wrappers.emplace(&program, nullptr);
+    if (isNew)
+    {
+        SurfaceKey key;
+        key.program = contentOf(program);
+        found->second = variantOf(key, &program);
+    }
+    return found->second;
+}
+
+void SurfaceFrame::resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
+{
+    const SurfaceState& state = stateOf(leaf._parent);
+    item.leaf = &leaf;
+    SurfaceKey key;
+    std::string beyond = makeSurfaceKey(state, _pass->getLighting(), _lights,
+                                        renderInfo.getContextID(), key);
+    auto* program = static_cast<const osg::Program*>(state.get(SurfaceState::Program));
+    if (program && program->getNumShaders() > 0)
+    {
+        SurfaceVariant* wrapper = wrapperOf(*program);
+        if (wrapper->getProgram() && !wrapper->failed)
+        {
+            item.variant = wrapper;
+            return;
+        }
+        // What GL refuses shows the fixed-function look; what only we can't wrap, its own program.
+        if (!wrapper->getProgram())
+            beyond = "its own program, which can't be wrapped: " + wrapper->getError();
+    }
+    if (!beyond.empty())
+    {
+        ++_beyond[beyond];
+        return;
+    }
+    if (key.lighting == LightingMode::Pixel)
+        _pass->classify(state, leaf, key, item.number);
+    item.variant = variantOf(key, nullptr);
+}
+
+void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
+{
+    if (_prepared)
+        return;
+    _prepared = true;
+    osg::State& state = *renderInfo.getState();
+    _languageVersion = state.get<osg::GLExtensions>()->glslLanguageVersion;
+    _items.resize(_bins.size());
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        _items[bin].resize(_bins[bin].size());
+    if (_languageVersion < 3.295f)
+    {
+        static std::once_flag said;
+        std::call_once(said, [this] {
+            OSG_WARN << _group->libraryName() << "::" << _group->className()
+                     << ": GLSL " << _languageVersion
+                     << " is older than 3.30, so models keep their fixed-function look; a driver with "
+                        "the OpenGL 3.3 compatibility profile is needed"
+                     << std::endl;
+        });
+        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+                _items[bin][i].leaf = _bins[bin][i];
+        _beyond["GLSL older than 3.30"] = 1;
+    }
+    else
+    {
+        forEachLight([this](const osg::Light& light, const osg::Matrix*) {
+            if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
+                _lights[light.getLightNum()] = &light;
+        });
+        _pass->begin(renderInfo, *this);
+        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+                resolve(renderInfo, *_bins[bin][i], _items[bin][i]);
+        _pass->end(renderInfo);
+    }
+    std::set<unsigned int> mentioned;
+    const void* last = nullptr;
+    for (const auto& [graph, surfaceState] : _states)
+        if (surfaceState.getExtraLightsIdentity() && surfaceState.getExtraLightsIdentity() != last)
+        {
+            last = surfaceState.getExtraLightsIdentity();
+            for (unsigned int number : surfaceState.getExtraLights(false))
+                mentioned.insert(number);
+        }
+    if (!mentioned.empty())
+    {
+        osg::ref_ptr<osg::StateSet> withheld = new osg::StateSet;
+        for (unsigned int number : mentioned)
+        {
+            withheld->setMode(GL_LIGHT0 + number,
+                              osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+            withheld->setAttribute(new WithheldLight(nullptr, number), osg::StateAttribute::OVERRIDE);
+        }
+        _withheld = withheld;
+    }
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+    {
+        for (const SurfaceItem& item : _items[bin])
+            _itemOf[item.leaf] = item;
+        std::stable_sort(_items[bin].begin(), _items[bin].end(),
+                         [](const SurfaceItem& a, const SurfaceItem& b) { return a.variant < b.variant; });
+    }
+    writePlan(renderInfo);
+}
+
+void SurfaceFrame::drawBin(osg::RenderInfo& renderInfo, std::size_t bin)
+{
+    prepare(renderInfo);
+    draw(renderInfo, _items[bin].data(), _items[bin].size());
+}
+
+void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf)
+{
+    prepare(renderInfo);
+    draw(renderInfo, &_itemOf[&leaf], 1);
+}
+
+void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
+{
+    osg::State& state = *renderInfo.getState();
+    const osg::StateSet* under = _pass->getStateSet();
+    if (_withheld)
+        state.pushStateSet(_withheld.get());
+    if (under)
+        state.pushStateSet(under);
+    osgUtil::RenderLeaf* previous = nullptr;
+    SurfaceVariant* current = nullptr;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        if (items[i].variant != current)
+        {
+            if (previous)
+                osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
+            previous = nullptr;
+            if (current)
+                state.popStateSet();
+            current = items[i].variant;
+            if (current)
+                state.pushStateSet(current->getStateSet());
+        }
+        drawOne(renderInfo, items[i], previous);
+        previous = items[i].leaf;
+    }
+    if (previous)
+        osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
+    if (current)
+        state.popStateSet();
+    if (under)
+        state.popStateSet();
+    if (_withheld)
+        state.popStateSet();
+}
+
+void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
+                           osgUtil::RenderLeaf* previous)
+{
+    osg::State& state = *renderInfo.getState();
+    osgUtil::RenderLeaf& leaf = *item.leaf;
+    state.applyProjectionMatrix(leaf._projection.get());
+    state.applyModelViewMatrix(leaf._modelview.get());
+
+    SurfaceVariant* variant = item.variant;
+    const bool first = variant && variant->compileMilliseconds.load() == 0.0;
+    const osg::Timer_t start = first ? osg::Timer::instance()->tick() : 0;
+    osgUtil::StateGraph* graph = leaf._parent;
+    osgUtil::StateGraph::moveStateGraph(state, previous ? previous->_parent->_parent : nullptr,
+                                        graph->_parent);
+    if (!previous || previous->_parent != graph)
+        state.apply(graph->getStateSet());
+    if (first)
+        variant->compileMilliseconds =
+            osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+    if (variant)
+    {
+        const auto* program = state.getLastAppliedProgramObject();
+        if (!program || program->getProgram() != variant->getProgram())
+            reportFailure(state, *variant);
+        else if (variant->getKey().kit)
+            _pass->apply(renderInfo, *variant, item.number);
+    }
+    if (state.getUseModelViewAndProjectionUniforms())
+        state.applyModelViewAndProjectionUniformsIfRequired();
+    leaf._drawable->draw(renderInfo);
+}
+
+void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
+{
+    if (variant.failed.exchange(true))
+        return;
+    const std::string& name = variant.getProgram()->getName();
+    OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
+             << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
+             << errorsOf(*variant.getProgram(), state) << std::flush;
+}
+
+void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
+{
+    Plan plan;
+    plan.kit = std::string(_group->libraryName()) + "::" + _group->className();
+    if (const osg::FrameStamp* stamp = renderInfo.getState()->getFrameStamp())
+        plan.frame = stamp->getFrameNumber();
+    unsigned int drawn = 0, fixed = 0, failed = 0;
+    std::map<SurfaceVariant*, unsigned int> leaves;
+    for (const auto& bin : _items)
+        for (const SurfaceItem& item : bin)
+        {
+            ++(item.variant ? drawn : fixed);
+            if (item.variant)
+                ++leaves[item.variant];
+        }
+    double compileMilliseconds = 0.0;
+    for (const auto& [variant, number] : leaves)
+    {
+        failed += variant->failed;
+        compileMilliseconds += variant->compileMilliseconds;
+        plan.entries.push_back({"variant " + toString(variant->getKey()),
+                                PlanEntry::Decision::Drawn, std::to_string(number) + " drawables"});
+    }
+    for (const auto& [reason, number] : _beyond)
+        plan.entries.push_back({"fixed function", PlanEntry::Decision::Drawn,
+                                std::to_string(number) + " drawables keep it because of " + reason});
+    plan.counts["leaves.program"] = drawn;
+    plan.counts["leaves.fixedFunction"] = fixed;
+    plan.counts["drawCalls"] = drawn + fixed;
+    plan.counts["passes"] = drawn + fixed ? 1 : 0;
+    plan.counts["variants"] = static_cast<double>(leaves.size());
+    plan.counts["variants.failed"] = failed;
+    plan.counts["states"] = static_cast<double>(_states.size());
+    plan.counts["programs.compiledThisFrame"] = _compiled;
+    plan.counts["programs.compileMilliseconds"] = compileMilliseconds;
+    _pass->fillPlan(plan);
+    _group->setPlan(_stage->getCamera(), std::move(plan));
+}
+
+} // namespace osgMultiRender

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/SurfaceGroup.h>
+
+#include <osgUtil/CullVisitor>
+#include <osgUtil/RenderLeaf>
+#include <osgUtil/RenderStage>
+#include <osgUtil/StateGraph>
+
+#include <functional>
+#include <unordered_map>
+
+namespace osgMultiRender
+{
+
+/// One leaf of the subgraph and what draws it.
+struct SurfaceItem
+{
+    osgUtil::RenderLeaf* leaf = nullptr;
+    SurfaceVariant* variant = nullptr; ///< Null: the leaf keeps its own state.
+    std::uint32_t number = 0;          ///< The kit's number of the leaf.
+};
+
+/// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
+///
+/// The subgraph's leaves lie in a private RenderStage. Each of its bins is mirrored in the bins of
+/// the view: a bin sorted by state by one proxy leaf that draws all its leaves, a bin sorted by depth
+/// or traversal by one proxy a leaf, so that they sort together with the leaves of siblings.
+class OSGMULTIRENDER_EXPORT SurfaceFrame : public osg::Referenced
+{
+public:
+    /// `stage` collects the subgraph; the frame owns it.
+    SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil::RenderStage& stage);
+
+    /// The stage to traverse the subgraph with.
+    osgUtil::RenderStage& getPrivateStage() { return *_private; }
+    /// After the traversal: puts the proxies into the bins of the view.
+    void insertProxies(osgUtil::CullVisitor& visitor);
+
+    /// The stage of the view, which holds the positioned lights.
+    const osgUtil::RenderStage& getStage() const { return *_stage; }
+
+    /// Calls `f` for each light positioned in this view, in the order in which GL gets them, with
+    /// its matrix to eye coordinates (null for identity).
+    void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const;
+
+    /// Eye-space box of all leaves that have a bound; invalid for none. Leaves without a bound make
+    /// it infinite in fact: then `unbounded` is set.
+    osg::BoundingBox getEyeBounds(bool& unbounded) const;
+
+    /// Draws the leaves of one mirrored bin, or one leaf.
+    void drawBin(osg::RenderInfo& renderInfo, std::size_t bin);
+    void drawLeaf(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf);
+
+    const std::vector<osgUtil::RenderLeaf*>& getLeaves(std::size_t bin) const { return _bins[bin]; }
+
+protected:
+    ~SurfaceFrame() override;
+
+private:
+    void mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from, osgUtil::RenderBin& to,
+                int path);
+    void prepare(osg::RenderInfo& renderInfo);
+    void resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
+    const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
+    SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program);
+    SurfaceVariant* wrapperOf(const osg::Program& program);
+    void reportFailure(osg::State& state, SurfaceVariant& variant);
+    void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
+    void drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item, osgUtil::RenderLeaf* previous);
+    void writePlan(osg::RenderInfo& renderInfo);
+
+    osg::ref_ptr<SurfaceGroup> _group;
+    osg::ref_ptr<osgUtil::RenderBin> _bin;
+    osg::ref_ptr<osgUtil::RenderStage> _stage;
+    osg::ref_ptr<osgUtil::RenderStage> _private;
+    std::unique_ptr<SurfacePass> _pass;
+    std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
+
+    bool _prepared = false;
+    float _languageVersion = 0.0f;
+    GLLights _lights{};
+    std::unordered_map<const osgUtil::StateGraph*, SurfaceState> _states;
+    std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash> _variants;
+    std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
+    std::vector<std::vector<SurfaceItem>> _items; ///< One a bin, grouped by variant.
+    std::unordered_map<const osgUtil::RenderLeaf*, SurfaceItem> _itemOf;
+    std::map<std::string, unsigned int> _beyond; ///< Why leaves keep the fixed function.
+    unsigned int _statesResolved = 0;
+    unsigned int _compiled = 0;
+    osg::ref_ptr<const osg::StateSet> _withheld;
+};
+
+} // namespace osgMultiRender

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/Export.h>
+#include <osgMultiRender/Plan.h>
+#include <osgMultiRender/SurfaceVariant.h>
+
+#include <osg/Group>
+#include <osg/observer_ptr>
+
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace osgUtil
+{
+class CullVisitor;
+class RenderLeaf;
+} // namespace osgUtil
+
+namespace osgMultiRender
+{
+
+class SurfaceFrame;
+
+/// A kit's part in the draw of one view of one frame. Lives in the draw thread.
+class OSGMULTIRENDER_EXPORT SurfacePass
+{
+public:
+    virtual ~SurfacePass();
+
+    /// Where light is evaluated this frame.
+    virtual LightingMode getLighting() const = 0;
+    /// Collects what the frame needs; called once before anything else.
+    virtual void begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame) = 0;
+    /// Says which kit bits a leaf's key gets, and gives the leaf a number for apply(). Only for
+    /// leaves whose key has LightingMode::Pixel.
+    virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
+                          std::uint32_t& number) = 0;
+    /// After the last classify().
+    virtual void end(osg::RenderInfo& renderInfo) = 0;
+    /// The GLSL that a key with these kit bits needs.
+    virtual SurfaceSnippet makeSnippet(const SurfaceKey& key) const = 0;
+    /// Pushed under the variants while the frame's leaves are drawn; null for none.
+    virtual const osg::StateSet* getStateSet() const = 0;
+    /// Called with the variant's program in use, before the leaf is drawn.
+    virtual void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
+                       std::uint32_t number) = 0;
+    virtual void fillPlan(Plan& plan) const = 0;
+};
+
+/// A Group whose subgraph is drawn with surface functions instead of the fixed function.
+///
+/// Under a cull traversal it collects the subgraph in a stage of its own and leaves one proxy a
+/// render bin in the bins of the view, so that the order among siblings stays; to every other visitor
+/// it is a plain group. The subgraph's StateSets are never written, state above the group and changes
+/// at run time count. Nested in another SurfaceGroup it is a plain group: the outermost draws.
+/// Requires GL 3.3 compatibility; below that it says so once and the fixed function draws.
+class OSGMULTIRENDER_EXPORT SurfaceGroup : public osg::Group, public Planned
+{
+public:
+    SurfaceGroup();
+    SurfaceGroup(const SurfaceGroup& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+
+    void traverse(osg::NodeVisitor& visitor) override;
+    void resizeGLObjectBuffers(unsigned int maxSize) override;
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+    std::vector<Plan> getPlans() const override;
+
+protected:
+    ~SurfaceGroup() override;
+
+    /// The kit's part in a new frame of a view. Called in the cull thread.
+    virtual std::unique_ptr<SurfacePass> createPass() const = 0;
+
+private:
+    friend class SurfaceFrame;
+
+    void cull(osgUtil::CullVisitor& visitor);
+    void setPlan(const osg::Camera* camera, Plan plan);
+    /// A StateSet of its own for each bin of each proxy, so that proxies do not share StateGraphs.
+    const osg::StateSet* getProxyStateSet(int bin);
+
+    osg::ref_ptr<osg::StateSet> _scope; ///< Keeps the subgraph's leaves apart from siblings'.
+    mutable std::mutex _mutex;
+    std::map<int, osg::ref_ptr<osg::StateSet>> _proxyStateSets;
+    struct ViewPlan
+    {
+        osg::observer_ptr<const osg::Camera> camera;
+        Plan plan;
+    };
+    std::vector<ViewPlan> _plans;
+    double _compiled = 0.0;            ///< Programs made for this group.
+};
+
+} // namespace osgMultiRender

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include <osgMultiRender/SurfaceVariant.h>
+
+#include <osgMultiRender/ProgramWrap.h>
+#include <osgMultiRender/SurfaceSource.h>
+
+#include <osg/Shader>
+#include <osg/Uniform>
+
+namespace osgMultiRender
+{
+
+namespace
+{
+
+/// The main of a kit that wants nothing but the surface's colour.
+constexpr char colorMain[] = "layout(location = 0) out vec4 osgmr_out0;\n"
+                             "void main()\n{\n    osgmr_out0 = osgmr_surface();\n}\n";
+
+} // namespace
+
+SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
+                               float languageVersion)
+    : osg::Referenced(true), _key(key), _program(new osg::Program), _stateSet(new osg::StateSet)
+{
+    const std::string version = glslVersionLine(languageVersion);
+    const SurfaceSource source = makeSurfaceSource(key);
+    const std::string name = toString(key);
+    osg::ref_ptr<osg::Shader> vertex =
+        new osg::Shader(osg::Shader::VERTEX, version + source.vertex);
+    osg::ref_ptr<osg::Shader> fragment = new osg::Shader(
+        osg::Shader::FRAGMENT, version + source.fragment + snippet.fragment + colorMain);
+    vertex->setName("osgMultiRender vertex, " + name);
+    fragment->setName("osgMultiRender fragment, " + name);
+    _program->setName("osgMultiRender " + name);
+    _program->addShader(vertex);
+    _program->addShader(fragment);
+    finish();
+    if (key.twoSided && key.lighting == LightingMode::Vertex)
+        _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE,
+                           osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    for (unsigned int unit = 0; unit < key.textures.size(); ++unit)
+        if (key.textures[unit].target)
+            _stateSet->addUniform(new osg::Uniform(
+                ("osgmr_texture" + std::to_string(unit)).c_str(), static_cast<int>(unit)));
+    for (const auto& [sampler, unit] : snippet.samplers)
+        _stateSet->addUniform(new osg::Uniform(sampler.c_str(), unit));
+}
+
+SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const osg::Program& program)
+    : osg::Referenced(true), _key(key), _stateSet(new osg::StateSet)
+{
+    _program = wrapProgram(program, _error);
+    if (_program)
+        finish();
+}
+
+void SurfaceVariant::finish()
+{
+    // Several graphics contexts draw it, each in a thread of its own.
+    _program->setThreadSafeRefUnref(true);
+    _stateSet->setThreadSafeRefUnref(true);
+    _stateSet->setAttributeAndModes(_program,
+                                    osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+}
+
+SurfaceVariantCache& SurfaceVariantCache::instance()
+{
+    static SurfaceVariantCache cache;
+    return cache;
+}
+
+void SurfaceVariantCache::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (auto& [kit, variants] : _variants)
+        for (auto& [key, variant] : variants)
+            if (variant->getProgram())
+                const_cast<osg::Program*>(variant->getProgram())->resizeGLObjectBuffers(maxSize);
+}
+
+void SurfaceVariantCache::releaseGLObjects(osg::State* state) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& [kit, variants] : _variants)
+        for (const auto& [key, variant] : variants)
+            if (variant->getProgram())
+                variant->getProgram()->releaseGLObjects(state);
+}
+
+} // namespace osgMultiRender

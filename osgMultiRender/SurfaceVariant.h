@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/Export.h>
+#include <osgMultiRender/SurfaceKey.h>
+
+#include <osg/Program>
+#include <osg/StateSet>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace osgMultiRender
+{
+
+/// What a kit adds to the surface functions of a variant.
+struct SurfaceSnippet
+{
+    std::string fragment; ///< GLSL after the surface function; may define osgmr_addLights().
+    std::vector<std::pair<std::string, int>> samplers; ///< Uniform name and texture unit.
+};
+
+/// A program for all surfaces with one key, and the StateSet that puts it over a leaf's own state.
+class OSGMULTIRENDER_EXPORT SurfaceVariant : public osg::Referenced
+{
+public:
+    /// The surface function of the fixed-function state that the key says.
+    SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet, float languageVersion);
+    /// The surface function of a model's own Program; see getError().
+    SurfaceVariant(const SurfaceKey& key, const osg::Program& program);
+
+    const SurfaceKey& getKey() const { return _key; }
+    const osg::StateSet* getStateSet() const { return _stateSet.get(); }
+    /// Null for a Program that can't be wrapped.
+    const osg::Program* getProgram() const { return _program.get(); }
+    /// Why there is no Program.
+    const std::string& getError() const { return _error; }
+
+    /// Set by the draw thread when the program did not link; its leaves then show the fixed function.
+    std::atomic<bool> failed{false};
+    /// Milliseconds of the first application, which compiles and links; 0 before it.
+    std::atomic<double> compileMilliseconds{0.0};
+
+protected:
+    ~SurfaceVariant() override = default;
+
+private:
+    void finish();
+
+    SurfaceKey _key;
+    osg::ref_ptr<osg::Program> _program;
+    std::string _error;
+    osg::ref_ptr<osg::StateSet> _stateSet;
+};
+
+/// The programs of all kits in the process. Thread safe.
+class OSGMULTIRENDER_EXPORT SurfaceVariantCache
+{
+public:
+    static SurfaceVariantCache& instance();
+
+    /// The variant of a key, which `make` makes when it is new; `made` tells. `kit` names whose
+    /// snippets the key's kit bits speak of.
+    template <class Make>
+    osg::ref_ptr<SurfaceVariant> get(const std::string& kit, const SurfaceKey& key, Make make,
+                                     bool& made)
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        osg::ref_ptr<SurfaceVariant>& variant = _variants[kit][key];
+        made = !variant;
+        if (made)
+            variant = make();
+        return variant;
+    }
+
+    void resizeGLObjectBuffers(unsigned int maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    SurfaceVariantCache() = default;
+
+    mutable std::mutex _mutex;
+    std::unordered_map<
+        std::string, std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
+        _variants;
+};
+
+} // namespace osgMultiRender

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include <osgMultiRender/PseudoLoader.h>
+#include <osgShadowVolume/LitScene.h>
+
+#include <osgDB/Registry>
+
+/// "model.iv.shadowvolume": lights the model per pixel.
+class ReaderWriterShadowVolume : public osgMultiRender::PseudoLoader
+{
+public:
+    ReaderWriterShadowVolume()
+        : PseudoLoader("shadowvolume", "Per-pixel lighting: model.ext.[(settings).]shadowvolume")
+    {
+        supportsOption("shadowvolume.shadows=off", "Light without shadows (the default)");
+        supportsOption("shadowvolume.lighting=pixel|vertex|off",
+                       "Where light is evaluated: per pixel by any number of lights (the default), "
+                       "per vertex by GL's eight as the fixed function does, or nowhere");
+        supportsOption("shadowvolume.lights=modes|all",
+                       "Which LightSources light a drawable: those whose GL_LIGHTn mode is on there "
+                       "(the default, as in OSG), or all of the view");
+    }
+
+    const char* className() const override { return "osgShadowVolume pseudo-loader"; }
+
+protected:
+    osg::ref_ptr<osg::Node> wrap(osg::Node& model, const osgMultiRender::Settings& settings,
+                                 std::string& error) const override
+    {
+        osg::ref_ptr<osgShadowVolume::LitScene> scene = new osgShadowVolume::LitScene;
+        // The viewer's optimizer must not remove or merge the group.
+        scene->setDataVariance(osg::Object::DYNAMIC);
+        for (const auto& [key, value] : settings)
+            if (!set(*scene, key, value, error))
+                return nullptr;
+        scene->addChild(&model);
+        return scene;
+    }
+
+private:
+    static bool set(osgShadowVolume::LitScene& scene, const std::string& key,
+                    const std::string& value, std::string& error)
+    {
+        using osgShadowVolume::LitScene;
+        if (key == "shadows" && value == "off")
+            return true;
+        if (key == "lighting" && value == "pixel")
+            scene.setLighting(LitScene::Lighting::PIXEL);
+        else if (key == "lighting" && value == "vertex")
+            scene.setLighting(LitScene::Lighting::VERTEX);
+        else if (key == "lighting" && value == "off")
+            scene.setLighting(LitScene::Lighting::OFF);
+        else if (key == "lights" && value == "modes")
+            scene.setLightScope(LitScene::LightScope::MODES);
+        else if (key == "lights" && value == "all")
+            scene.setLightScope(LitScene::LightScope::ALL);
+        else
+        {
+            error = "setting '" + key + "=" + value +
+                    "' is not known; there are shadows=off, lighting=pixel|vertex|off and "
+                    "lights=modes|all";
+            return false;
+        }
+        return true;
+    }
+};
+
+REGISTER_OSGPLUGIN(shadowvolume, ReaderWriterShadowVolume)

@@ -1,0 +1,466 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/LitPass.h>
+
+#include <osgShadowVolume/Shaders.h>
+
+#include <osg/GLExtensions>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgShadowVolume
+{
+
+using osgMultiRender::LightingMode;
+using osgMultiRender::PlanEntry;
+using osgMultiRender::SurfaceKey;
+using osgMultiRender::SurfaceSnippet;
+using osgMultiRender::SurfaceState;
+
+namespace
+{
+
+constexpr std::size_t maxListed = 32;     ///< Lights of a state up to which each leaf has its list.
+constexpr double budget = 0.5 / 255.0;    ///< What all left-out lights may add to a pixel.
+constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
+constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
+
+/// Bits of SurfaceKey::kit. Uniform lights: their number from bit 4, two bits for the type of each
+/// from bit 8.
+enum KitBits : std::uint32_t
+{
+    Listed = 1,
+    Gridded = 2,
+    NumberShift = 4,
+    TypesShift = 8
+};
+
+std::uint32_t numberOfUniformLights(std::uint32_t kit)
+{
+    return (kit >> NumberShift) & 15u;
+}
+
+glm::vec3 toGlm(const osg::Vec4& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+glm::dvec3 unit(const osg::Vec3d& v)
+{
+    const double length = v.length();
+    return length > 0.0 ? glm::dvec3(v.x(), v.y(), v.z()) / length : glm::dvec3(0.0);
+}
+
+EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
+{
+    EyeLight eye;
+    eye.number = light.getLightNum();
+    eye.name = light.getName();
+    eye.ambient = toGlm(light.getAmbient());
+    eye.diffuse = toGlm(light.getDiffuse());
+    eye.specular = toGlm(light.getSpecular());
+    eye.constantAttenuation = light.getConstantAttenuation();
+    eye.linearAttenuation = light.getLinearAttenuation();
+    eye.quadraticAttenuation = light.getQuadraticAttenuation();
+    const osg::Matrix identity;
+    const osg::Matrix& m = matrix ? *matrix : identity;
+    const osg::Vec4d position = osg::Vec4d(light.getPosition()) * m;
+    if (light.getPosition().w() == 0.0f)
+    {
+        eye.type = EyeLight::Directional;
+        eye.position = unit(osg::Vec3d(position.x(), position.y(), position.z()));
+        return eye;
+    }
+    eye.type = light.getSpotCutoff() == 180.0f ? EyeLight::Point : EyeLight::Spot;
+    eye.position = glm::dvec3(position.x(), position.y(), position.z()) / position.w();
+    eye.spotDirection = unit(osg::Matrix::transform3x3(osg::Vec3d(light.getDirection()), m));
+    eye.spotCutoffDegrees = light.getSpotCutoff();
+    eye.spotExponent = light.getSpotExponent();
+    return eye;
+}
+
+std::string subjectOf(const EyeLight& light)
+{
+    static const char* const types[] = {"directional", "point", "spot"};
+    std::string subject = "light " + std::to_string(light.number);
+    if (!light.name.empty())
+        subject += " '" + light.name + "'";
+    return subject + " (" + types[light.type] + ")";
+}
+
+/// Low-discrepancy numbers in [0, 1), so that few samples cover boxes evenly.
+double radicalInverse(unsigned int i, unsigned int base)
+{
+    double result = 0.0, digit = 1.0 / base;
+    for (; i; i /= base, digit /= base)
+        result += digit * (i % base);
+    return result;
+}
+
+} // namespace
+
+LitPass::LitPass(const LitScene& scene) : _scene(scene) {}
+
+LightingMode LitPass::getLighting() const
+{
+    switch (_scene.getLighting())
+    {
+    case LitScene::Lighting::OFF:
+        return LightingMode::Off;
+    case LitScene::Lighting::VERTEX:
+        return LightingMode::Vertex;
+    case LitScene::Lighting::PIXEL:
+        break;
+    }
+    return LightingMode::Pixel;
+}
+
+void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
+{
+    std::map<int, std::size_t> lastOf;
+    std::vector<EyeLight> all;
+    frame.forEachLight([&](const osg::Light& light, const osg::Matrix* matrix) {
+        if (_scene.getLightScope() == LitScene::LightScope::MODES)
+        {
+            const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
+            if (!isNew) // GL keeps the last one of a number.
+            {
+                all[found->second] = toEye(light, matrix);
+                return;
+            }
+        }
+        all.push_back(toEye(light, matrix));
+    });
+    if (_scene.getLighting() != LitScene::Lighting::PIXEL)
+    {
+        for (const EyeLight& light : all)
+        {
+            if (_scene.getLighting() == LitScene::Lighting::OFF)
+                _dropped.push_back({light, "lighting is off"});
+            else if (light.number >= int(SurfaceState::MaxGLLights))
+                _dropped.push_back({light, "GL has lights 0 to 7 only; lighting=pixel has all"});
+            else
+            {
+                _lights.push_back(light);
+                _used.push_back(true);
+            }
+        }
+        return;
+    }
+    const osg::BoundingBox box = frame.getEyeBounds(_unbounded);
+    if (!box.valid() && !_unbounded)
+        _unbounded = true;
+    _boxMin = glm::dvec3(box.xMin(), box.yMin(), box.zMin());
+    _boxMax = glm::dvec3(box.xMax(), box.yMax(), box.zMax());
+    _unbounded = _unbounded || !std::isfinite(glm::length(_boxMax - _boxMin));
+    const glm::dvec3 center = 0.5 * (_boxMin + _boxMax);
+    const double radius = 0.5 * glm::length(_boxMax - _boxMin);
+    const double threshold = budget / std::max<std::size_t>(1, all.size());
+    for (const EyeLight& light : all)
+    {
+        const double reach = reachOf(light, threshold);
+        if (brightness(light) == 0.0)
+            _dropped.push_back({light, "it is black"});
+        else if (!_unbounded && !reaches(light, reach, center, radius))
+            _dropped.push_back({light, "it reaches nothing in view"});
+        else
+            _lights.push_back(light);
+    }
+    _used.assign(_lights.size(), false);
+    if (_lights.size() > maxListed && !_unbounded)
+        for (unsigned int i = 0; i < 64; ++i)
+            _points.push_back(_boxMin + (_boxMax - _boxMin) *
+                                            glm::dvec3(radicalInverse(i + 1, 2),
+                                                       radicalInverse(i + 1, 3),
+                                                       radicalInverse(i + 1, 5)));
+}
+
+void LitPass::fillReach(LightSet& set) const
+{
+    double threshold = budget / std::max<std::size_t>(1, set.lights.size());
+    if (set.lights.size() > maxListed)
+    {
+        std::vector<EyeLight> lights;
+        for (std::uint32_t light : set.lights)
+            lights.push_back(_lights[light]);
+        threshold = thresholdFor(lights, _points, budget);
+    }
+    set.reach.assign(_lights.size(), 0.0);
+    for (std::uint32_t light : set.lights)
+        set.reach[light] = reachOf(_lights[light], threshold);
+}
+
+LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
+{
+    const bool all = _scene.getLightScope() == LitScene::LightScope::ALL;
+    const std::pair<std::uint32_t, const void*> key =
+        all ? std::make_pair(0u, static_cast<const void*>(nullptr))
+            : std::make_pair(state.getModes() & (SurfaceState::Light0 * 255u),
+                             state.getExtraLightsIdentity());
+    const auto [found, isNew] = _sets.try_emplace(key);
+    LightSet& set = found->second;
+    if (!isNew)
+        return set;
+    for (std::uint32_t i = 0; i < _lights.size(); ++i)
+        if (all || state.isLightOn(_lights[i].number) ||
+            _lights[i].number >= int(osgMultiRender::FirstUnscopedLight))
+            set.lights.push_back(i);
+    fillReach(set);
+    if (set.lights.size() > maxListed && !_unbounded)
+        makeGrid(set);
+    return set;
+}
+
+void LitPass::makeGrid(LightSet& set)
+{
+    set.grid.emplace(_lights, set.reach, set.lights, _boxMin, _boxMax);
+    List list;
+    list.lights = set.grid->getEverywhere();
+    list.grid = &set;
+    for (std::uint32_t light : list.lights)
+        _used[light] = true;
+    for (std::uint32_t light : set.grid->getIndices())
+        _used[light] = true;
+    set.gridNumber = static_cast<std::uint32_t>(_lists.size());
+    _lists.push_back(std::move(list));
+}
+
+std::uint32_t LitPass::listOf(std::vector<std::uint32_t> lights)
+{
+    const auto [found, isNew] =
+        _listNumbers.emplace(lights, static_cast<std::uint32_t>(_lists.size()));
+    if (isNew)
+    {
+        for (std::uint32_t light : lights)
+            _used[light] = true;
+        _lists.emplace_back();
+        _lists.back().lights = std::move(lights);
+    }
+    return found->second;
+}
+
+void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
+                       std::uint32_t& number)
+{
+    LightSet& set = setOf(state);
+    if (set.grid)
+    {
+        key.kit = Gridded;
+        number = set.gridNumber;
+        return;
+    }
+    std::vector<std::uint32_t> reaching = set.lights;
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (box.valid() && !reaching.empty())
+    {
+        glm::dvec3 corners[8], center(0.0);
+        for (unsigned int i = 0; i < 8; ++i)
+        {
+            const osg::Vec3d corner = leaf._modelview.valid()
+                                          ? osg::Vec3d(box.corner(i)) * *leaf._modelview
+                                          : osg::Vec3d(box.corner(i));
+            corners[i] = {corner.x(), corner.y(), corner.z()};
+            center += 0.125 * corners[i];
+        }
+        double radius = 0.0;
+        for (const glm::dvec3& corner : corners)
+            radius = std::max(radius, glm::length(corner - center));
+        if (std::isfinite(radius))
+            reaching.erase(std::remove_if(reaching.begin(), reaching.end(),
+                                          [&](std::uint32_t light) {
+                                              return !reaches(_lights[light], set.reach[light],
+                                                              center, radius);
+                                          }),
+                           reaching.end());
+    }
+    if (reaching.empty())
+        return; // a program without lights
+    // Equal types side by side, so that few orders of the same lights make variants.
+    std::stable_sort(reaching.begin(), reaching.end(), [this](std::uint32_t a, std::uint32_t b) {
+        return _lights[a].type < _lights[b].type;
+    });
+    if (reaching.size() <= maxUniform)
+    {
+        key.kit = static_cast<std::uint32_t>(reaching.size()) << NumberShift;
+        for (std::size_t i = 0; i < reaching.size(); ++i)
+            key.kit |= std::uint32_t(_lights[reaching[i]].type) << (TypesShift + 2 * i);
+    }
+    else
+        key.kit = Listed;
+    number = listOf(std::move(reaching));
+}
+
+bool LitPass::isUniform(const List& list) const
+{
+    return !list.grid && list.lights.size() <= maxUniform;
+}
+
+void LitPass::end(osg::RenderInfo& renderInfo)
+{
+    if (_scene.getLighting() != LitScene::Lighting::PIXEL || _lists.empty())
+        return;
+    bool needsTextures = false;
+    for (List& list : _lists)
+    {
+        if (!isUniform(list))
+        {
+            needsTextures = true;
+            continue;
+        }
+        list.uniforms.resize(list.lights.size() * FloatsPerLight);
+        for (std::size_t i = 0; i < list.lights.size(); ++i)
+            packLight(_lights[list.lights[i]], &list.uniforms[i * FloatsPerLight]);
+    }
+    if (!needsTextures)
+        return;
+    // Only lights that some leaf uses go to the GPU.
+    std::vector<const EyeLight*> lights;
+    std::vector<std::int32_t> index(_lights.size(), 0);
+    for (std::size_t i = 0; i < _lights.size(); ++i)
+        if (_used[i])
+        {
+            index[i] = static_cast<std::int32_t>(lights.size());
+            lights.push_back(&_lights[i]);
+        }
+    std::vector<std::int32_t> data;
+    for (List& list : _lists)
+    {
+        if (isUniform(list))
+            continue;
+        list.offset = static_cast<int>(data.size());
+        for (std::uint32_t light : list.lights)
+            data.push_back(index[light]);
+        if (!list.grid)
+            continue;
+        const LightGrid& grid = *list.grid->grid;
+        const int base = static_cast<int>(data.size());
+        for (std::uint32_t light : grid.getIndices())
+            data.push_back(index[light]);
+        list.gridCells = static_cast<int>(data.size());
+        for (std::size_t cell = 0; cell + 1 < grid.getOffsets().size(); ++cell)
+        {
+            data.push_back(base + static_cast<int>(grid.getOffsets()[cell]));
+            data.push_back(static_cast<int>(grid.getOffsets()[cell + 1] - grid.getOffsets()[cell]));
+        }
+    }
+    _textures = _scene._textures->get(renderInfo.getContextID());
+    _textures->set(lights, data);
+}
+
+SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
+{
+    SurfaceSnippet snippet;
+    if (key.lighting != LightingMode::Pixel)
+        return snippet;
+    if (!key.kit)
+    {
+        snippet.fragment = "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
+                           "inout vec3 diffuse, inout vec3 specular)\n{\n}\n";
+        return snippet;
+    }
+    const std::uint32_t uniforms = numberOfUniformLights(key.kit);
+    if (key.kit & Gridded)
+        snippet.fragment = "#define OSGSV_GRID\n";
+    if (uniforms)
+        snippet.fragment = "#define OSGSV_UNIFORM " + std::to_string(uniforms) + "\n";
+    osg::ref_ptr<osg::Shader> shader = osgDB::readRefShaderFileWithFallback(
+        osg::Shader::FRAGMENT, "osgShadowVolume/lights.frag", shaders::lights_frag);
+    snippet.fragment += shader->getShaderSource();
+    if (uniforms)
+    {
+        snippet.fragment += "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
+                            "inout vec3 diffuse, inout vec3 specular)\n{\n";
+        for (std::uint32_t i = 0; i < uniforms; ++i)
+            snippet.fragment += "    osgsv_addLight(" + std::to_string(i) + ", " +
+                                std::to_string((key.kit >> (TypesShift + 2 * i)) & 3u) +
+                                ".0, surface, ambient, diffuse, specular);\n";
+        snippet.fragment += "}\n";
+        return snippet;
+    }
+    snippet.samplers = {{"osgsv_lights", LitScene::LightTextures::LightsUnit},
+                        {"osgsv_lists", LitScene::LightTextures::ListsUnit}};
+    return snippet;
+}
+
+const osg::StateSet* LitPass::getStateSet() const
+{
+    return _textures ? _textures->stateSet.get() : nullptr;
+}
+
+void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
+                    std::uint32_t number)
+{
+    const auto [applied, isNew] = _applied.emplace(&variant, number);
+    if (!isNew && applied->second == number)
+        return;
+    applied->second = number;
+    // osg::Program trims "[0]" off the names of arrays.
+    static const unsigned int uniforms = osg::Uniform::getNameID("osgsv_light");
+    static const unsigned int range = osg::Uniform::getNameID("osgsv_range");
+    static const unsigned int origin = osg::Uniform::getNameID("osgsv_gridOrigin");
+    static const unsigned int scale = osg::Uniform::getNameID("osgsv_gridScale");
+    static const unsigned int size = osg::Uniform::getNameID("osgsv_gridSize");
+    static const unsigned int cells = osg::Uniform::getNameID("osgsv_gridCells");
+
+    osg::State& state = *renderInfo.getState();
+    const auto& program = *state.getLastAppliedProgramObject();
+    const auto* gl = state.get<osg::GLExtensions>();
+    const List& list = _lists[number];
+    if (isUniform(list))
+    {
+        gl->glUniform4fv(program.getUniformLocation(uniforms), int(list.uniforms.size() / 4),
+                         list.uniforms.data());
+        return;
+    }
+    gl->glUniform2i(program.getUniformLocation(range), list.offset, int(list.lights.size()));
+    if (!list.grid)
+        return;
+    const LightGrid& grid = *list.grid->grid;
+    const glm::dvec3 o = grid.getOrigin(), c = grid.getCellSize();
+    const glm::ivec3 n = grid.getSize();
+    gl->glUniform3f(program.getUniformLocation(origin), float(o.x), float(o.y), float(o.z));
+    gl->glUniform3f(program.getUniformLocation(scale), float(1.0 / c.x), float(1.0 / c.y),
+                    float(1.0 / c.z));
+    gl->glUniform3i(program.getUniformLocation(size), n.x, n.y, n.z);
+    gl->glUniform1i(program.getUniformLocation(cells), list.gridCells);
+}
+
+void LitPass::fillPlan(osgMultiRender::Plan& plan) const
+{
+    std::size_t drawn = 0, dropped = _dropped.size(), named = 0;
+    const auto add = [&](const EyeLight& light, PlanEntry::Decision decision,
+                         const std::string& reason) {
+        if (named++ < maxPlanned)
+            plan.entries.push_back({subjectOf(light), decision, reason});
+    };
+    for (const Dropped& light : _dropped)
+        add(light.light, PlanEntry::Decision::Dropped, light.reason);
+    for (std::size_t i = 0; i < _lights.size(); ++i)
+    {
+        if (_used[i])
+        {
+            ++drawn;
+            add(_lights[i], PlanEntry::Decision::Folded, "in the one pass of all unshadowed lights");
+        }
+        else
+        {
+            ++dropped;
+            add(_lights[i], PlanEntry::Decision::Dropped,
+                "no drawable in view has it on and in reach");
+        }
+    }
+    if (named > maxPlanned)
+        plan.entries.push_back({std::to_string(named - maxPlanned) + " more lights",
+                                PlanEntry::Decision::Folded, "see the counts"});
+    plan.counts["lights.drawn"] = static_cast<double>(drawn);
+    plan.counts["lights.dropped"] = static_cast<double>(dropped);
+    plan.counts["lights.grids"] = static_cast<double>(
+        std::count_if(_sets.begin(), _sets.end(), [](const auto& s) { return s.second.grid.has_value(); }));
+    plan.counts["textureBytes"] =
+        _textures ? double(_textures->lights->getImage()->getTotalSizeInBytes() +
+                           _textures->lists->getImage()->getTotalSizeInBytes())
+                  : 0.0;
+}
+
+} // namespace osgShadowVolume

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgShadowVolume/LightGrid.h>
+#include <osgShadowVolume/LightTextures.h>
+
+#include <osgMultiRender/SurfaceFrame.h>
+
+#include <map>
+#include <optional>
+
+namespace osgShadowVolume
+{
+
+/// Lights the leaves of a LitScene in one view of one frame.
+///
+/// Each leaf gets the list of the lights that reach it, as uniforms where they are few; where a state
+/// has many lights, its leaves share a grid instead. What is left out adds less than half a step of 8 bits to any pixel.
+class LitPass : public osgMultiRender::SurfacePass
+{
+public:
+    explicit LitPass(const LitScene& scene);
+
+    osgMultiRender::LightingMode getLighting() const override;
+    void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
+    void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                  osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
+    void end(osg::RenderInfo& renderInfo) override;
+    osgMultiRender::SurfaceSnippet makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
+    const osg::StateSet* getStateSet() const override;
+    void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
+               std::uint32_t number) override;
+    void fillPlan(osgMultiRender::Plan& plan) const override;
+
+private:
+    /// The lights that a state switches on.
+    struct LightSet
+    {
+        std::vector<std::uint32_t> lights; ///< Indices into _lights.
+        std::vector<double> reach;         ///< Parallel to _lights.
+        std::optional<LightGrid> grid;     ///< Only for more than MaxListed lights.
+        std::uint32_t gridNumber = 0;      ///< Of _lists, when there is a grid.
+    };
+    /// What apply() sets for a leaf.
+    struct List
+    {
+        std::vector<std::uint32_t> lights;
+        int offset = 0;
+        std::vector<float> uniforms; ///< The lights themselves, where they are few.
+        const LightSet* grid = nullptr;
+        int gridCells = 0;
+    };
+    struct Dropped
+    {
+        EyeLight light;
+        std::string reason;
+    };
+
+    LightSet& setOf(const osgMultiRender::SurfaceState& state);
+    void fillReach(LightSet& set) const;
+    void makeGrid(LightSet& set);
+    std::uint32_t listOf(std::vector<std::uint32_t> lights);
+    bool isUniform(const List& list) const;
+
+    const LitScene& _scene;
+    std::vector<EyeLight> _lights;
+    std::vector<bool> _used;
+    std::vector<Dropped> _dropped;
+    std::vector<glm::dvec3> _points; ///< Samples of what is in view.
+    glm::dvec3 _boxMin{0.0}, _boxMax{0.0};
+    bool _unbounded = false;
+    std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
+    std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
+    std::vector<List> _lists;
+    /// The list that each program's uniforms hold.
+    std::map<const osgMultiRender::SurfaceVariant*, std::uint32_t> _applied;
+    osg::ref_ptr<LitScene::LightTextures::Context> _textures; ///< Null while no leaf needs a light.
+};
+
+} // namespace osgShadowVolume

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Frame time of the surface programs against the fixed function, as ratios in one run.
+//
+//   osgShadowVolume.SurfaceBenchmark [--size WxH] [--rounds N] [--csv file] [model ...]
+//
+// Each model is drawn as stock OSG, with lighting=vertex and with lighting=pixel in turns; printed are
+// medians over the rounds and the median of the ratios of each round.
+#include <osgShadowVolume/LitScene.h>
+
+#include <support/HeadlessViewer.h>
+#include <support/InventorModels.h>
+
+#include <osg/ArgumentParser>
+#include <osg/Switch>
+#include <osg/Timer>
+#include <osgDB/FileNameUtils>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace
+{
+
+enum Method
+{
+    Fixed,
+    Vertex,
+    Pixel,
+    NumMethods
+};
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+struct Result
+{
+    double milliseconds[NumMethods];
+    double ratio[NumMethods];
+    osgMultiRender::Plan plans[NumMethods];
+};
+
+Result measure(support::HeadlessViewer& viewer, osg::Node& model, int width, int height, int rounds)
+{
+    using osgShadowVolume::LitScene;
+    osg::ref_ptr<osg::Switch> methods = new osg::Switch;
+    osg::ref_ptr<LitScene> vertex = new LitScene, pixel = new LitScene;
+    vertex->setLighting(LitScene::Lighting::VERTEX);
+    vertex->addChild(&model);
+    pixel->addChild(&model);
+    methods->addChild(&model);
+    methods->addChild(vertex);
+    methods->addChild(pixel);
+    const auto camera = support::CameraSpec::overview(model, double(width) / height);
+    std::vector<double> times[NumMethods], ratios[NumMethods];
+    for (int round = -2; round < rounds; ++round)
+    {
+        double ms[NumMethods];
+        for (int method = 0; method < NumMethods; ++method)
+        {
+            methods->setSingleChildOn(method);
+            viewer.render(methods, camera, width, height, round < 0 ? 3 : 1);
+            const osg::Timer_t start = osg::Timer::instance()->tick();
+            viewer.getViewer().frame(0.0);
+            ms[method] = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+        }
+        for (int method = 0; round >= 0 && method < NumMethods; ++method)
+        {
+            times[method].push_back(ms[method]);
+            ratios[method].push_back(ms[method] / ms[Fixed]);
+        }
+    }
+    Result result{};
+    for (int method = 0; method < NumMethods; ++method)
+    {
+        result.milliseconds[method] = median(times[method]);
+        result.ratio[method] = median(ratios[method]);
+    }
+    if (!vertex->getPlans().empty())
+        result.plans[Vertex] = vertex->getPlans().back();
+    if (!pixel->getPlans().empty())
+        result.plans[Pixel] = pixel->getPlans().back();
+    return result;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    osg::ArgumentParser arguments(&argc, argv);
+    std::string size = "640x480", csvName;
+    int rounds = 15, width = 0, height = 0;
+    arguments.read("--size", size);
+    arguments.read("--rounds", rounds);
+    arguments.read("--csv", csvName);
+    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2)
+        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
+    std::vector<std::string> models;
+    for (int i = 1; i < argc; ++i)
+        models.push_back(argv[i]);
+    if (models.empty())
+        models = support::inventorModels();
+
+    support::HeadlessSettings settings;
+    settings.width = width;
+    settings.height = height;
+    support::HeadlessViewer viewer(settings);
+    if (!viewer.isValid())
+        return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
+    std::FILE* csv = csvName.empty() ? nullptr : std::fopen(csvName.c_str(), "w");
+    if (csv)
+        std::fprintf(csv, "model,fixed_ms,vertex_ms,vertex_ratio,pixel_ms,pixel_ratio,drawables,states,"
+                          "variants,vertex_compile_ms,pixel_compile_ms\n");
+    std::vector<double> vertexRatios, pixelRatios;
+    double sum[NumMethods] = {};
+    for (const std::string& name : models)
+    {
+        osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(name);
+        if (!model || !model->getBound().valid())
+            continue;
+        Result r = measure(viewer, *model, width, height, rounds);
+        auto& counts = r.plans[Vertex].counts;
+        const double vertexCompile = counts["programs.compileMilliseconds"];
+        const double pixelCompile = r.plans[Pixel].counts["programs.compileMilliseconds"];
+        std::printf("%-24s fixed %7.2f ms  vertex %7.2f (x%.3f)  pixel %7.2f (x%.3f)  drawables %4.0f "
+                    "states %4.0f variants %2.0f\n",
+                    osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed],
+                    r.milliseconds[Vertex], r.ratio[Vertex], r.milliseconds[Pixel], r.ratio[Pixel],
+                    counts["drawCalls"], counts["states"], counts["variants"]);
+        if (csv)
+            std::fprintf(csv, "%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.2f,%.2f\n",
+                         osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed],
+                         r.milliseconds[Vertex], r.ratio[Vertex], r.milliseconds[Pixel],
+                         r.ratio[Pixel], counts["drawCalls"], counts["states"], counts["variants"],
+                         vertexCompile, pixelCompile);
+        vertexRatios.push_back(r.ratio[Vertex]);
+        pixelRatios.push_back(r.ratio[Pixel]);
+        for (int method = 0; method < NumMethods; ++method)
+            sum[method] += r.milliseconds[method];
+        std::fflush(stdout);
+    }
+    std::printf("%zu models: vertex median x%.3f, worst x%.3f, of sums x%.3f; pixel median x%.3f, of sums "
+                "x%.3f\n",
+                vertexRatios.size(), median(vertexRatios),
+                vertexRatios.empty() ? 0.0 : *std::max_element(vertexRatios.begin(), vertexRatios.end()),
+                sum[Vertex] / sum[Fixed], median(pixelRatios), sum[Pixel] / sum[Fixed]);
+    if (csv)
+        std::fclose(csv);
+    return 0;
+}
