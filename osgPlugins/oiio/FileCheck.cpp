@@ -223,9 +223,11 @@ std::string checkIff(const std::string& text)
             const std::uint32_t flags = bytes.get32(at + 20);
             const int sampleBytes = bytes.get16(at + 24) ? 2 : 1;
             picture.channelBytes = (flags & 2 ? 4 : 3) * sampleBytes;
-            constexpr int largest = 1 << 16;
-            if (size < 24 || !(flags & 1) || picture.width < 1 || picture.height < 1 ||
-                picture.width > largest || picture.height > largest)
+            constexpr std::uint32_t largest = 0xffff;
+            if (size < 24 ||
+                (size >= 32 && (bytes.get32(at + 32) | bytes.get32(at + 36)) > largest) ||
+                !(flags & 1) || bytes.get32(at + 8) - 1 >= largest ||
+                bytes.get32(at + 12) - 1 >= largest)
             {
                 return "damaged: the header makes no sense";
             }
