@@ -67,31 +67,27 @@ ImageError getImageError(const osg::Image& actual, const osg::Image& expected, d
 
 osg::ref_ptr<osg::Image> boxFilter(const osg::Image& picture, int factor)
 {
-    if (factor < 1 || picture.getPixelFormat() != GL_RGBA || picture.getDataType() != GL_FLOAT ||
-        picture.s() % factor || picture.t() % factor)
+    requireComparable(picture);
+    if (factor < 1 || picture.s() % factor || picture.t() % factor)
     {
-        throw std::runtime_error("boxFilter: not a float RGBA picture of a multiple of the factor");
+        throw std::runtime_error("boxFilter: the picture's size is no multiple of the factor");
     }
     osg::ref_ptr<osg::Image> small = new osg::Image;
-    small->allocateImage(picture.s() / factor, picture.t() / factor, 1, GL_RGBA, GL_FLOAT);
+    small->allocateImage(picture.s() / factor, picture.t() / factor, 1, GL_RGB, GL_FLOAT);
     for (int y = 0; y < small->t(); ++y)
     {
         for (int x = 0; x < small->s(); ++x)
         {
-            double sums[4] = {};
-            for (int row = 0; row < factor; ++row)
+            for (int channel = 0; channel < 3; ++channel)
             {
-                const auto* pixel =
-                    reinterpret_cast<const float*>(picture.data(x * factor, y * factor + row));
-                for (int i = 0; i < 4 * factor; ++i)
+                double sum = 0.0;
+                for (int i = 0; i < factor * factor; ++i)
                 {
-                    sums[i % 4] += pixel[i];
+                    sum += getChannel(picture, x * factor + i % factor, y * factor + i / factor,
+                                      channel);
                 }
-            }
-            auto* const out = reinterpret_cast<float*>(small->data(x, y));
-            for (int channel = 0; channel < 4; ++channel)
-            {
-                out[channel] = static_cast<float>(sums[channel] / (factor * factor));
+                reinterpret_cast<float*>(small->data(x, y))[channel] =
+                    static_cast<float>(sum / (factor * factor));
             }
         }
     }

@@ -21,8 +21,8 @@ struct ImageError
 ImageError getImageError(const osg::Image& actual, const osg::Image& expected,
                          double threshold = 2.0 / 255.0);
 
-/// Averages blocks of factor x factor pixels of a float RGBA picture. Throws std::runtime_error
-/// where the size is no multiple of the factor.
+/// Averages blocks of factor x factor pixels into a float RGB picture. Throws std::runtime_error as
+/// getImageError() does, and where the size is no multiple of the factor.
 osg::ref_ptr<osg::Image> boxFilter(const osg::Image& picture, int factor);
 
 } // namespace precision

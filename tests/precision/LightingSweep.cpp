@@ -39,7 +39,8 @@ std::unique_ptr<support::HeadlessViewer> makeViewer(int size)
 
 /// Draws the scene factor times larger than the picture and averages; only the drawing is timed,
 /// since on a GPU the averaging is next to nothing. A frame of the CPU's time is a frame of
-/// llvmpipe's: reading back waits for it.
+/// llvmpipe's: reading back waits for it. Of 8 bits a channel: an RMS error of 0.29/255 of a
+/// picture with one sample a pixel is rounding.
 Outcome draw(support::HeadlessViewer& viewer, osg::Node* scene, int factor)
 {
     const auto camera =
@@ -47,7 +48,7 @@ Outcome draw(support::HeadlessViewer& viewer, osg::Node* scene, int factor)
                                          osg::Vec3d(0.0, 0.0, 1.0), 40.0, 1.0, 1.0, 20.0);
     const auto start = std::chrono::steady_clock::now();
     const osg::ref_ptr<osg::Image> large =
-        viewer.renderFloat(scene, camera, factor * PictureSize, factor * PictureSize);
+        viewer.render(scene, camera, factor * PictureSize, factor * PictureSize);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     if (!large)
     {

@@ -166,8 +166,9 @@ void writePlot(std::ostream& out, const Sweep& sweep, const std::vector<Measurem
         << quotePlot(sweep.title + "\n" + describeMachine() + "; " + sweep.renderer)
         << " noenhanced font ',12'\nset xlabel " << quotePlot(sweep.errorName)
         << "\nset ylabel 'run time, ms (median, p10 to p90)'\n"
-        << "set logscale xy\nset format xy '10^{%T}'\nset grid\nset offsets graph 0.08, 0.08, "
-           "0.12, 0.05\nset key outside below\n";
+        << "set logscale xy\nset format xy '10^{%T}'\nset grid\nset offsets graph 0.08, graph "
+           "0.08, "
+           "graph 0.12, graph 0.05\nset key outside below\n";
     writeFailures(out, measurements);
     if (hasPoints(measurements))
     {
