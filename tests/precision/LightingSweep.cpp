@@ -5,13 +5,17 @@
 
 #include <support/HeadlessViewer.h>
 
+#include <osg/Camera>
 #include <osg/GraphicsContext>
 #include <osgViewer/Viewer>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <tuple>
 
 namespace
 {
@@ -24,60 +28,77 @@ constexpr int ReferenceFactor = 16;
 // The floor of the pictures that light each pixel: it needs no more.
 constexpr int CoarseFloor = 8;
 
-std::unique_ptr<support::HeadlessViewer> makeViewer(int size)
+/// Draws the scene into a float picture that is factor times larger than the sweep's.
+osg::ref_ptr<osg::Camera> makeCamera(osg::Node* scene, int factor)
 {
-    support::HeadlessSettings settings;
-    settings.width = settings.height = size;
-    auto viewer = std::make_unique<support::HeadlessViewer>(settings);
-    if (!viewer->isValid())
-    {
-        throw std::runtime_error(viewer->getError());
-    }
-    viewer->getViewer().setLightingMode(osg::View::NO_LIGHT);
-    return viewer;
+    const int size = factor * PictureSize;
+    osg::ref_ptr<osg::Image> picture = new osg::Image;
+    picture->allocateImage(size, size, 1, GL_RGBA, GL_FLOAT);
+    picture->setInternalTextureFormat(GL_RGBA32F_ARB);
+
+    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
+    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    camera->setViewMatrixAsLookAt(osg::Vec3d(0.0, -4.5, 3.0), osg::Vec3d(0.0, 0.1, 0.1),
+                                  osg::Vec3d(0.0, 0.0, 1.0));
+    camera->setProjectionMatrixAsPerspective(40.0, 1.0, 1.0, 20.0);
+    camera->setComputeNearFarMode(osg::CullSettings::DO_NOT_COMPUTE_NEAR_FAR);
+    camera->setViewport(0, 0, size, size);
+    camera->setClearColor(osg::Vec4(0.1f, 0.1f, 0.15f, 1.0f));
+    camera->setRenderOrder(osg::Camera::PRE_RENDER);
+    camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
+    camera->attach(osg::Camera::COLOR_BUFFER, picture);
+    camera->attach(osg::Camera::DEPTH_BUFFER, GL_DEPTH_COMPONENT24);
+    camera->addChild(scene);
+    return camera;
 }
 
-/// Draws the scene factor times larger than the picture and averages; only the drawing is timed,
-/// since on a GPU the averaging is next to nothing. A frame of the CPU's time is a frame of
-/// llvmpipe's: reading back waits for it. Of 8 bits a channel: an RMS error of 0.29/255 of a
-/// picture with one sample a pixel is rounding.
-Outcome draw(support::HeadlessViewer& viewer, osg::Node* scene, int factor)
+/// Keeps what the runs of the sweep share: the context, and the scenes with their pictures.
+class Workshop
 {
-    const auto camera =
-        support::CameraSpec::perspective(osg::Vec3d(0.0, -4.5, 3.0), osg::Vec3d(0.0, 0.1, 0.1),
-                                         osg::Vec3d(0.0, 0.0, 1.0), 40.0, 1.0, 1.0, 20.0);
-    const auto start = std::chrono::steady_clock::now();
-    const osg::ref_ptr<osg::Image> large =
-        viewer.render(scene, camera, factor * PictureSize, factor * PictureSize);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    if (!large)
+public:
+    Workshop()
     {
-        throw std::runtime_error("nothing was drawn");
-    }
-    Outcome outcome;
-    outcome.picture = precision::boxFilter(*large, factor);
-    outcome.seconds = elapsed.count();
-    return outcome;
-}
-
-/// Keeps what the runs of the sweep share.
-struct Workshop
-{
-    explicit Workshop(int largestFactor) : viewer(makeViewer(largestFactor * PictureSize)) {}
-
-    osg::Node* getScene(Lighting lighting, int floorCells)
-    {
-        osg::ref_ptr<osg::Group>& scene = scenes[{lighting, floorCells}];
-        if (!scene)
+        if (!viewer.isValid())
         {
-            scene = precision::makeLitScene(lighting);
-            scene->addChild(precision::makeSpotScene(floorCells));
+            throw std::runtime_error(viewer.getError());
         }
-        return scene.get();
+        viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
     }
 
-    std::unique_ptr<support::HeadlessViewer> viewer;
-    std::map<std::pair<Lighting, int>, osg::ref_ptr<osg::Group>> scenes;
+    /// Draws and averages; only the drawing is timed, with the transfer of the picture, since on a
+    /// GPU the averaging is next to nothing.
+    Outcome draw(Lighting lighting, int floorCells, int factor)
+    {
+        osg::Camera* const camera = getCamera(lighting, floorCells, factor);
+        osg::Image& picture = *camera->getBufferAttachmentMap()[osg::Camera::COLOR_BUFFER]._image;
+        // So that nothing drawn is a failure, not the last round's picture.
+        std::fill_n(reinterpret_cast<float*>(picture.data()), picture.getTotalSizeInBytes() / 4,
+                    std::nanf(""));
+        const auto start = std::chrono::steady_clock::now();
+        viewer.render(camera, {}, 1, 1);
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        Outcome outcome;
+        outcome.picture = precision::boxFilter(picture, factor);
+        outcome.seconds = elapsed.count();
+        return outcome;
+    }
+
+    support::HeadlessViewer viewer{support::HeadlessSettings{}};
+
+private:
+    osg::Camera* getCamera(Lighting lighting, int floorCells, int factor)
+    {
+        osg::ref_ptr<osg::Camera>& camera = _cameras[{lighting, floorCells, factor}];
+        if (!camera)
+        {
+            const osg::ref_ptr<osg::Group> scene = precision::makeLitScene(lighting);
+            scene->addChild(precision::makeSpotScene(floorCells));
+            camera = makeCamera(scene, factor);
+        }
+        return camera.get();
+    }
+
+    std::map<std::tuple<Lighting, int, int>, osg::ref_ptr<osg::Camera>> _cameras;
 };
 
 std::string getRenderer(support::HeadlessViewer& viewer)
@@ -97,39 +118,31 @@ std::string getRenderer(support::HeadlessViewer& viewer)
 precision::Method makeGouraud(const std::shared_ptr<Workshop>& shop, const std::string& name,
                               std::vector<double> cells)
 {
-    return {
-        name, "floor cells a side", std::move(cells), [shop](double value) {
-            return draw(*shop->viewer,
-                        shop->getScene(Lighting::FixedFunction, static_cast<int>(value)), 1);
-        }};
+    return {name, "floor cells a side", std::move(cells), [shop](double value) {
+                return shop->draw(Lighting::FixedFunction, static_cast<int>(value), 1);
+            }};
 }
 
 precision::Method makePerPixel(const std::shared_ptr<Workshop>& shop, const std::string& name,
                                std::vector<double> factors)
 {
-    return {name, "samples a side", std::move(factors),
-            [shop](double value)
-            {
-                return draw(*shop->viewer, shop->getScene(Lighting::PerPixel, CoarseFloor),
-                            static_cast<int>(value));
+    return {name, "samples a side", std::move(factors), [shop](double value) {
+                return shop->draw(Lighting::PerPixel, CoarseFloor, static_cast<int>(value));
             }};
 }
 
 precision::Sweep makeLightingSweep()
 {
-    const auto shop = std::make_shared<Workshop>(8);
+    const auto shop = std::make_shared<Workshop>();
     precision::Sweep sweep;
     sweep.name = "lighting";
     sweep.title = "Spot light on a floor and a sphere, 256x256";
     sweep.errorName =
         "RMS error of the pixels, 1 is white, against per-pixel lighting with 16x16 samples";
-    sweep.renderer = getRenderer(*shop->viewer);
+    sweep.renderer = getRenderer(shop->viewer);
+    // A shop of its own: its picture takes 256 MiB, which the sweep needs no more.
     sweep.makeReference = []
-    {
-        Workshop large(ReferenceFactor);
-        return draw(*large.viewer, large.getScene(Lighting::PerPixel, CoarseFloor),
-                    ReferenceFactor);
-    };
+    { return Workshop().draw(Lighting::PerPixel, CoarseFloor, ReferenceFactor); };
     sweep.getError = [](const Outcome& outcome, const Outcome& reference)
     { return precision::getImageError(*outcome.picture, *reference.picture).rms; };
     sweep.methods = {makeGouraud(shop, "Gouraud", {CoarseFloor}),
