@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgPlugins/oiio/ReaderWriterOiio.h>
 
+#include <osgPlugins/oiio/FileCheck.h>
 #include <osgPlugins/oiio/ImageDecoder.h>
 #include <osgPlugins/oiio/ImageEncoder.h>
 #include <osgPlugins/oiio/Report.h>
@@ -46,22 +47,55 @@ bool supportsMemory(const std::string& format, bool writing)
     return input && input->supports("ioproxy");
 }
 
+std::string readAll(const std::string& path)
+{
+    osgDB::ifstream file(path.c_str(), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Decodes a file, by way of its bytes where OpenImageIO has to be kept from damaged ones.
+osgDB::ReaderWriter::ReadResult decodeFile(const std::string& format, const std::string& path,
+                                           const Settings& settings)
+{
+    if (!isCheckedForDamage(format))
+    {
+        return decodeImage(format, path, nullptr, settings);
+    }
+    const std::string bytes = readAll(path);
+    const std::string damage = findDamage(format, bytes);
+    if (!damage.empty())
+    {
+        return osgDB::ReaderWriter::ReadResult(failure(path, damage));
+    }
+    const std::string png = format == "ico" && !settings.subimage ? extractPng(bytes) : "";
+    if (png.empty())
+    {
+        return decodeImage(format, path, nullptr, settings);
+    }
+    OIIO::Filesystem::IOMemReader reader(png.data(), png.size());
+    return decodeImage("png", path, &reader, settings);
+}
+
 /// Decodes a file in memory whose format is known.
 osgDB::ReaderWriter::ReadResult decodeBytes(const std::string& format, const std::string& bytes,
                                             const Settings& settings)
 {
-    if (supportsMemory(format, false))
+    if (supportsMemory(format, false) && !isCheckedForDamage(format))
     {
         OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
         return decodeImage(format, streamName(usualExtension(format)), &reader, settings);
     }
     const TemporaryFile file(usualExtension(format));
     osgDB::ofstream(file.getName().c_str(), std::ios::binary) << bytes;
-    return decodeImage(format, file.getName(), nullptr, settings);
+    return decodeFile(format, file.getName(), settings);
 }
 
 bool opensAs(const std::string& format, const std::string& bytes)
 {
+    if (!findDamage(format, bytes).empty())
+    {
+        return false;
+    }
     OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
     const auto input = OIIO::ImageInput::create(format);
     OIIO::ImageSpec spec;
@@ -129,7 +163,7 @@ osgDB::ReaderWriter::ReadResult ReaderWriterOiio::readImage(const std::string& f
     {
         return ReadResult(error);
     }
-    ReadResult result = decodeImage(format, path, nullptr, settings);
+    ReadResult result = decodeFile(format, path, settings);
     if (result.validImage())
     {
         result.getImage()->setFileName(fileName);

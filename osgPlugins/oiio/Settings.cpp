@@ -117,7 +117,7 @@ const std::map<std::string, std::string>& describeSettings()
                         "by the image's file name when writing)"},
         {"oiio.maxMegabytes", "=N: refuse pictures that are larger once decoded, 1 to 4095 (2047)"},
         {"oiio.quality", "=N: quality of lossy encoders, 1 to 100"},
-        {"oiio.compression", "=NAME: e.g. zip, piz, dwaa (exr), lzw (tif), lossless (webp)"},
+        {"oiio.compression", "=NAME: e.g. zip, piz, dwaa (exr), lzw (tif)"},
         {"oiio.type",
          "=uint8|uint16|half|float: pixel type to read as or to write (default: as it is)"}};
     return descriptions;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace
 {
@@ -19,31 +20,18 @@ double nextNoise(std::mt19937& random)
     return bits % 3 ? (bits >> 8) / double(0xffffff) : 0.0;
 }
 
-osgDB::ReaderWriter* load(const std::string& extension, const std::string& accepted)
-{
-    osgDB::Registry* const registry = osgDB::Registry::instance();
-    registry->loadLibrary(registry->createLibraryNameForExtension(extension));
-    for (const auto& readerWriter : registry->getReaderWriterList())
-    {
-        if (readerWriter->acceptsExtension(accepted) &&
-            std::string(readerWriter->className()).find("OpenImageIO") == 0)
-        {
-            return readerWriter.get();
-        }
-    }
-    return nullptr;
-}
-
 } // namespace
 
 osgDB::ReaderWriter* oiioPlugin()
 {
-    return load("oiio", "png");
-}
-
-osgDB::ReaderWriter* modulePlugin(const std::string& extension)
-{
-    return load(extension, extension);
+    osgDB::Registry* const registry = osgDB::Registry::instance();
+    registry->loadLibrary(registry->createLibraryNameForExtension("oiio"));
+    osgDB::ReaderWriter* const plugin = registry->getReaderWriterForExtension("exr");
+    if (!plugin)
+    {
+        throw std::runtime_error("osgdb_oiio was not found; set OSG_LIBRARY_PATH");
+    }
+    return plugin;
 }
 
 osg::ref_ptr<osg::Image> makeImage(int width, int height, int channels, GLenum dataType)

@@ -10,9 +10,6 @@
 /// failed.
 osgDB::ReaderWriter* oiioPlugin();
 
-/// Loads osgdb_<extension> alone, as OSG does for a file of that name, and returns its reader.
-osgDB::ReaderWriter* modulePlugin(const std::string& extension);
-
 /// An image of 1 to 4 channels, luminance or RGB, with or without alpha; packing 1.
 osg::ref_ptr<osg::Image> makeImage(int width, int height, int channels, GLenum dataType);
 
