@@ -265,10 +265,10 @@ TEST(GlslSourceTest, qualifiersAreRemovedAndReplaced)
     const GlslSpecifiers& specifiers = source.specifiersOf(*source.findGlobal("b"));
     GlslEdit remove(source);
     remove.removeQualifiers(specifiers, {"layout", "out"});
-    EXPECT_EQ(remove.getText(), "#version 330\n  /* a */ \nvec4 a, b;\n");
+    EXPECT_EQ(remove.getText(), "#version 330\n   /* a */ \nvec4 a, b;\n");
     GlslEdit replace(source);
     replace.setQualifiers(specifiers, "uniform");
-    EXPECT_EQ(replace.getText(), "#version 330\nuniform   /* a */ \nvec4 a, b;\n");
+    EXPECT_EQ(replace.getText(), "#version 330\nuniform    /* a */ \nvec4 a, b;\n");
 }
 
 TEST(GlslSourceTest, insertedLinesAreFollowedByALineDirective)
