@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/SurfaceFrame.h>
 
+#include <osgMultiRender/ProgramWrap.h>
 #include <osgMultiRender/WithheldLight.h>
 
 #include <osg/GLExtensions>
@@ -239,17 +240,35 @@ const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
     return _states.emplace(graph, std::move(state)).first->second;
 }
 
-SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key)
+SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Program* program)
 {
     osg::ref_ptr<SurfaceVariant>& variant = _variants[key];
     if (!variant)
     {
         bool made = false;
         variant = SurfaceVariantCache::instance().get(
-            _group->className(), key, _languageVersion, [&] { return _pass->makeSnippet(key); }, made);
+            _group->className(), key,
+            [&] {
+                return program ? new SurfaceVariant(key, *program)
+                               : new SurfaceVariant(key, _pass->makeSnippet(key), _languageVersion);
+            },
+            made);
         _compiled += made;
     }
     return variant.get();
+}
+
+/// The variant of a model's own Program; its texts are looked at once a frame, so that a change shows.
+SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
+{
+    const auto [found, isNew] = _wrappers.emplace(&program, nullptr);
+    if (isNew)
+    {
+        SurfaceKey key;
+        key.program = contentOf(program);
+        found->second = variantOf(key, &program);
+    }
+    return found->second;
 }
 
 void SurfaceFrame::resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
@@ -259,9 +278,19 @@ void SurfaceFrame::resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& lea
     SurfaceKey key;
     std::string beyond = makeSurfaceKey(state, _pass->getLighting(), _lights,
                                         renderInfo.getContextID(), key);
-    if (beyond.empty() && state.get(SurfaceState::Program) &&
-        static_cast<const osg::Program*>(state.get(SurfaceState::Program))->getNumShaders() > 0)
-        beyond = "a program of its own";
+    auto* program = static_cast<const osg::Program*>(state.get(SurfaceState::Program));
+    if (program && program->getNumShaders() > 0)
+    {
+        SurfaceVariant* wrapper = wrapperOf(*program);
+        if (wrapper->getProgram() && !wrapper->failed)
+        {
+            item.variant = wrapper;
+            return;
+        }
+        // What GL refuses shows the fixed-function look; what only we can't wrap, its own program.
+        if (!wrapper->getProgram())
+            beyond = "its own program, which can't be wrapped: " + wrapper->getError();
+    }
     if (!beyond.empty())
     {
         ++_beyond[beyond];
@@ -269,7 +298,7 @@ void SurfaceFrame::resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& lea
     }
     if (key.lighting == LightingMode::Pixel)
         _pass->classify(state, leaf, key, item.number);
-    item.variant = variantOf(key);
+    item.variant = variantOf(key, nullptr);
 }
 
 void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
@@ -289,7 +318,8 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             OSG_WARN << _group->libraryName() << "::" << _group->className()
                      << ": GLSL " << _languageVersion
                      << " is older than 3.30, so models keep their fixed-function look; a driver with "
-                        "the OpenGL 3.3 compatibility profile is needed\n";
+                        "the OpenGL 3.3 compatibility profile is needed"
+                     << std::endl;
         });
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
@@ -409,13 +439,23 @@ void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
     {
         const auto* program = state.getLastAppliedProgramObject();
         if (!program || program->getProgram() != variant->getProgram())
-            variant->failed = true;
+            reportFailure(state, *variant);
         else if (variant->getKey().kit)
             _pass->apply(renderInfo, *variant, item.number);
     }
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();
     leaf._drawable->draw(renderInfo);
+}
+
+void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
+{
+    if (variant.failed.exchange(true))
+        return;
+    const std::string& name = variant.getProgram()->getName();
+    OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
+             << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
+             << errorsOf(*variant.getProgram(), state) << std::flush;
 }
 
 void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)

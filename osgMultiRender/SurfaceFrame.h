@@ -64,7 +64,9 @@ private:
     void prepare(osg::RenderInfo& renderInfo);
     void resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
-    SurfaceVariant* variantOf(const SurfaceKey& key);
+    SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program);
+    SurfaceVariant* wrapperOf(const osg::Program& program);
+    void reportFailure(osg::State& state, SurfaceVariant& variant);
     void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
     void drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item, osgUtil::RenderLeaf* previous);
     void writePlan(osg::RenderInfo& renderInfo);
@@ -81,6 +83,7 @@ private:
     GLLights _lights{};
     std::unordered_map<const osgUtil::StateGraph*, SurfaceState> _states;
     std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash> _variants;
+    std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
     std::vector<std::vector<SurfaceItem>> _items; ///< One a bin, grouped by variant.
     std::unordered_map<const osgUtil::RenderLeaf*, SurfaceItem> _itemOf;
     std::map<std::string, unsigned int> _beyond; ///< Why leaves keep the fixed function.

@@ -103,7 +103,7 @@ void SurfaceGroup::setPlan(const osg::Camera* camera, Plan plan)
     plan.counts["programs.compiled"] = _compiled;
     plan.counts["programs.reused"] = plan.counts["states"] - plan.counts["programs.compiledThisFrame"];
     _plans[index].plan = std::move(plan);
-    OSG_INFO << toString(_plans[index].plan);
+    OSG_INFO << toString(_plans[index].plan) << std::flush;
 }
 
 std::vector<Plan> SurfaceGroup::getPlans() const

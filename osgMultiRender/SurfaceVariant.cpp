@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/SurfaceVariant.h>
 
+#include <osgMultiRender/ProgramWrap.h>
 #include <osgMultiRender/SurfaceSource.h>
 
 #include <osg/Shader>
@@ -34,20 +35,33 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
     _program->setName("osgMultiRender " + name);
     _program->addShader(vertex);
     _program->addShader(fragment);
-    // Several graphics contexts draw it, each in a thread of its own.
-    _program->setThreadSafeRefUnref(true);
-    _stateSet->setThreadSafeRefUnref(true);
-
-    const auto override = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-    _stateSet->setAttributeAndModes(_program, override);
+    finish();
     if (key.twoSided && key.lighting == LightingMode::Vertex)
-        _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE, override);
+        _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE,
+                           osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
     for (unsigned int unit = 0; unit < key.textures.size(); ++unit)
         if (key.textures[unit].target)
             _stateSet->addUniform(new osg::Uniform(
                 ("osgmr_texture" + std::to_string(unit)).c_str(), static_cast<int>(unit)));
     for (const auto& [sampler, unit] : snippet.samplers)
         _stateSet->addUniform(new osg::Uniform(sampler.c_str(), unit));
+}
+
+SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const osg::Program& program)
+    : osg::Referenced(true), _key(key), _stateSet(new osg::StateSet)
+{
+    _program = wrapProgram(program, _error);
+    if (_program)
+        finish();
+}
+
+void SurfaceVariant::finish()
+{
+    // Several graphics contexts draw it, each in a thread of its own.
+    _program->setThreadSafeRefUnref(true);
+    _stateSet->setThreadSafeRefUnref(true);
+    _stateSet->setAttributeAndModes(_program,
+                                    osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
 }
 
 SurfaceVariantCache& SurfaceVariantCache::instance()
@@ -61,7 +75,8 @@ void SurfaceVariantCache::resizeGLObjectBuffers(unsigned int maxSize)
     std::lock_guard<std::mutex> lock(_mutex);
     for (auto& [kit, variants] : _variants)
         for (auto& [key, variant] : variants)
-            const_cast<osg::Program*>(variant->getProgram())->resizeGLObjectBuffers(maxSize);
+            if (variant->getProgram())
+                const_cast<osg::Program*>(variant->getProgram())->resizeGLObjectBuffers(maxSize);
 }
 
 void SurfaceVariantCache::releaseGLObjects(osg::State* state) const
@@ -69,7 +84,8 @@ void SurfaceVariantCache::releaseGLObjects(osg::State* state) const
     std::lock_guard<std::mutex> lock(_mutex);
     for (const auto& [kit, variants] : _variants)
         for (const auto& [key, variant] : variants)
-            variant->getProgram()->releaseGLObjects(state);
+            if (variant->getProgram())
+                variant->getProgram()->releaseGLObjects(state);
 }
 
 } // namespace osgMultiRender

@@ -26,11 +26,17 @@ struct SurfaceSnippet
 class OSGMULTIRENDER_EXPORT SurfaceVariant : public osg::Referenced
 {
 public:
+    /// The surface function of the fixed-function state that the key says.
     SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet, float languageVersion);
+    /// The surface function of a model's own Program; see getError().
+    SurfaceVariant(const SurfaceKey& key, const osg::Program& program);
 
     const SurfaceKey& getKey() const { return _key; }
     const osg::StateSet* getStateSet() const { return _stateSet.get(); }
+    /// Null for a Program that can't be wrapped.
     const osg::Program* getProgram() const { return _program.get(); }
+    /// Why there is no Program.
+    const std::string& getError() const { return _error; }
 
     /// Set by the draw thread when the program did not link; its leaves then show the fixed function.
     std::atomic<bool> failed{false};
@@ -41,8 +47,11 @@ protected:
     ~SurfaceVariant() override = default;
 
 private:
+    void finish();
+
     SurfaceKey _key;
     osg::ref_ptr<osg::Program> _program;
+    std::string _error;
     osg::ref_ptr<osg::StateSet> _stateSet;
 };
 
@@ -52,17 +61,17 @@ class OSGMULTIRENDER_EXPORT SurfaceVariantCache
 public:
     static SurfaceVariantCache& instance();
 
-    /// The variant of a key, made when it is new; `made` tells. `kit` names whose snippets the key's
-    /// kit bits speak of.
-    template <class MakeSnippet>
-    osg::ref_ptr<SurfaceVariant> get(const std::string& kit, const SurfaceKey& key,
-                                     float languageVersion, MakeSnippet makeSnippet, bool& made)
+    /// The variant of a key, which `make` makes when it is new; `made` tells. `kit` names whose
+    /// snippets the key's kit bits speak of.
+    template <class Make>
+    osg::ref_ptr<SurfaceVariant> get(const std::string& kit, const SurfaceKey& key, Make make,
+                                     bool& made)
     {
         std::lock_guard<std::mutex> lock(_mutex);
         osg::ref_ptr<SurfaceVariant>& variant = _variants[kit][key];
         made = !variant;
         if (made)
-            variant = new SurfaceVariant(key, makeSnippet(), languageVersion);
+            variant = make();
         return variant;
     }
 

@@ -35,8 +35,9 @@ Window::Window(osg::GraphicsContext::Traits& traits, Backend& backend,
     }
     getEventQueue()->syncWindowRectangleWithGraphicsContext();
 
-    const std::string file = traits.pbuffer ? std::string() : Capture::getRequestedFile();
-    if (!file.empty())
+    const std::string file = Capture::getRequestedFile();
+    // osgviewer opens its default window when the one asked for fails: that is the wrong picture.
+    if (!file.empty() && !traits.pbuffer && !willExitWithFailure())
     {
         _capture = std::make_unique<Capture>(file);
     }

@@ -26,7 +26,7 @@ public:
     /// Returns a Window, or null after one line with cause and remedy (each line once). Null
     /// without a line for a pixel buffer that is to be bound as texture: OSG then copies instead.
     /// With OSG_HEADLESS_CAPTURE set, a window (not a pixel buffer) that fails also makes the
-    /// process end with EXIT_FAILURE.
+    /// process end with EXIT_FAILURE, and windows that open after it write no picture.
     osg::GraphicsContext* createGraphicsContext(osg::GraphicsContext::Traits* traits) override;
 
 protected:

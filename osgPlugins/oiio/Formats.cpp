@@ -63,6 +63,18 @@ ExtensionMap readableExtensions(const std::string& extension)
     return one;
 }
 
+std::string usualExtension(const std::string& format)
+{
+    const std::string list = ";" + std::string(OIIO::get_string_attribute("extension_list"));
+    const auto found = list.find(";" + format + ":");
+    if (found == std::string::npos)
+    {
+        return format;
+    }
+    const auto begin = found + format.size() + 2;
+    return list.substr(begin, list.find_first_of(",;", begin) - begin);
+}
+
 bool isWritable(const std::string& format)
 {
     return !isTestFormat(format) && contains(listAttribute("output_format_list"), format);

@@ -18,6 +18,9 @@ ExtensionMap readableExtensions();
 /// The same, of one extension; empty when OpenImageIO was built without it.
 ExtensionMap readableExtensions(const std::string& extension);
 
+/// The usual extension of a format, e.g. jpeg2000 -> jp2; the name itself where it is unknown.
+std::string usualExtension(const std::string& format);
+
 /// Whether OpenImageIO writes this format (its own name of it).
 bool isWritable(const std::string& format);
 

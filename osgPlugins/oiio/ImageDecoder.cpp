@@ -3,6 +3,7 @@
 
 #include <osgPlugins/oiio/PixelLayout.h>
 #include <osgPlugins/oiio/Report.h>
+#include <osgPlugins/oiio/WebpAlpha.h>
 
 #include <OpenImageIO/strutil.h>
 
@@ -133,7 +134,8 @@ ReadResult decode(OIIO::ImageInput& input, const std::string& name, const Settin
             failure(name, "there is no subimage " + std::to_string(settings.subimage)));
     }
     const OIIO::ImageSpec& spec = input.spec();
-    const GLenum dataType = dataTypeOf(spec.format);
+    const GLenum dataType =
+        dataTypeOf(settings.type == OIIO::TypeUnknown ? spec.format : settings.type);
     const int typeBytes = static_cast<int>(typeOf(dataType).size());
     const std::string reason = refusal(spec, std::min(spec.nchannels, 4) * typeBytes, settings);
     if (!reason.empty())
@@ -152,6 +154,11 @@ ReadResult decode(OIIO::ImageInput& input, const std::string& name, const Settin
     if (!readPixels(input, settings, channels, placement, *image))
     {
         return ReadResult(failure(name, takeError(input)));
+    }
+    if (input.format_name() == std::string("webp") && count == 4 && dataType == GL_UNSIGNED_BYTE &&
+        !spec.get_int_attribute("oiio:UnassociatedAlpha"))
+    {
+        undoWebpReader(*image);
     }
     return ReadResult(image.get());
 }

@@ -3,6 +3,8 @@
 
 #include <osgPlugins/oiio/PixelLayout.h>
 #include <osgPlugins/oiio/Report.h>
+#include <osgPlugins/oiio/WebpAlpha.h>
+#include <osgPlugins/oiio/WriterLimits.h>
 
 #include <OpenImageIO/filesystem.h>
 
@@ -42,22 +44,6 @@ std::string refusal(const osg::Image& image)
         return std::string(names) + " cannot be written; convert the image to RGB or RGBA first";
     }
     return {};
-}
-
-/// The numbers of channels to offer a format for an image with count of them, best first.
-std::vector<int> channelCounts(int count, bool hasAlpha)
-{
-    switch (count)
-    {
-    case 1:
-        return {1, 3};
-    case 2:
-        return hasAlpha ? std::vector<int>{2, 4, 1, 3} : std::vector<int>{1, 3};
-    case 4:
-        return hasAlpha ? std::vector<int>{4, 3} : std::vector<int>{3};
-    default:
-        return {count};
-    }
 }
 
 /// Which component of a pixel goes into each of count channels; the last of 2 or 4 is alpha.
@@ -124,7 +110,8 @@ Pixels arrangePixels(const osg::Image& image, const std::vector<int>& sources)
     return pixels;
 }
 
-OIIO::ImageSpec makeSpec(const osg::Image& image, int channels, const Settings& settings)
+OIIO::ImageSpec makeSpec(const osg::Image& image, const std::string& format, int channels,
+                         const Settings& settings)
 {
     const OIIO::TypeDesc own = typeOf(image.getDataType());
     OIIO::ImageSpec spec(image.s(), image.t(), channels,
@@ -139,7 +126,25 @@ OIIO::ImageSpec makeSpec(const osg::Image& image, int channels, const Settings& 
     {
         spec.attribute("Compression", settings.compression);
     }
+    avoidLosses(format, spec);
     return spec;
+}
+
+bool writePixels(OIIO::ImageOutput& output, const osg::Image& image, int channels)
+{
+    const ChannelOrder order = channelOrderOf(image.getPixelFormat());
+    const OIIO::TypeDesc type = typeOf(image.getDataType());
+    const Pixels pixels = arrangePixels(image, channelSources(order, channels));
+    if (channels < 4 || output.format_name() != std::string("webp"))
+    {
+        return output.write_image(type, pixels.top, pixels.xStride, pixels.yStride);
+    }
+    std::vector<unsigned char> bytes(std::size_t(4) * image.s() * image.t());
+    OIIO::convert_image(4, image.s(), image.t(), 1, pixels.top, type, pixels.xStride,
+                        pixels.yStride, OIIO::AutoStride, bytes.data(), OIIO::TypeDesc::UINT8, 4,
+                        OIIO::AutoStride, OIIO::AutoStride);
+    undoWebpWriter(bytes.data(), std::size_t(image.s()) * image.t());
+    return output.write_image(OIIO::TypeDesc::UINT8, bytes.data());
 }
 
 WriteResult encode(const osg::Image& image, const std::string& format, const std::string& name,
@@ -152,11 +157,11 @@ WriteResult encode(const osg::Image& image, const std::string& format, const std
         return WriteResult(failure(name, OIIO::geterror()));
     }
     std::string firstError;
-    for (int channels : channelCounts(order.count, output->supports("alpha")))
+    for (int channels : channelCounts(format, order.count, output->supports("alpha")))
     {
         output = OIIO::ImageOutput::create(format);
         if ((proxy && !output->set_ioproxy(proxy)) ||
-            !output->open(name, makeSpec(image, channels, settings)))
+            !output->open(name, makeSpec(image, format, channels, settings)))
         {
             const std::string error = takeError(*output);
             firstError = firstError.empty() ? error : firstError;
@@ -167,10 +172,7 @@ WriteResult encode(const osg::Image& image, const std::string& format, const std
             OSG_NOTICE << "osgdb_oiio: '" << name << "': " << format
                        << " has no alpha, which is left out\n";
         }
-        const Pixels pixels = arrangePixels(image, channelSources(order, channels));
-        if (!output->write_image(typeOf(image.getDataType()), pixels.top, pixels.xStride,
-                                 pixels.yStride) ||
-            !output->close())
+        if (!writePixels(*output, image, channels) || !output->close())
         {
             return WriteResult(failure(name, takeError(*output)));
         }
@@ -184,7 +186,12 @@ WriteResult encode(const osg::Image& image, const std::string& format, const std
 WriteResult encodeImage(const osg::Image& image, const std::string& format, const std::string& name,
                         OIIO::Filesystem::IOProxy* proxy, const Settings& settings)
 {
-    const std::string reason = refusal(image);
+    std::string reason = refusal(image);
+    if (reason.empty())
+    {
+        reason = refusalOf(format, name, image.s(), image.t(),
+                           channelOrderOf(image.getPixelFormat()).count);
+    }
     if (!reason.empty())
     {
         return WriteResult(failure(name, reason));

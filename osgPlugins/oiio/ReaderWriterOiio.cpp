@@ -23,6 +23,12 @@ namespace
 
 const char StreamName[] = "stream";
 
+/// A name for OpenImageIO, whose JPEG 2000 coder tells its two kinds by the extension.
+std::string streamName(const std::string& extension)
+{
+    return StreamName + ("." + extension);
+}
+
 std::string lookUp(const ExtensionMap& extensions, const std::string& extension)
 {
     const auto found = extensions.find(extension);
@@ -47,9 +53,9 @@ osgDB::ReaderWriter::ReadResult decodeBytes(const std::string& format, const std
     if (supportsMemory(format, false))
     {
         OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
-        return decodeImage(format, StreamName, &reader, settings);
+        return decodeImage(format, streamName(usualExtension(format)), &reader, settings);
     }
-    const TemporaryFile file(format);
+    const TemporaryFile file(usualExtension(format));
     osgDB::ofstream(file.getName().c_str(), std::ios::binary) << bytes;
     return decodeImage(format, file.getName(), nullptr, settings);
 }
@@ -59,8 +65,8 @@ bool opensAs(const std::string& format, const std::string& bytes)
     OIIO::Filesystem::IOMemReader reader(bytes.data(), bytes.size());
     const auto input = OIIO::ImageInput::create(format);
     OIIO::ImageSpec spec;
-    const bool opened =
-        input && input->set_ioproxy(&reader) && input->open(StreamName, spec, OIIO::ImageSpec());
+    const bool opened = input && input->set_ioproxy(&reader) &&
+                        input->open(streamName(usualExtension(format)), spec, OIIO::ImageSpec());
     if (!opened && input)
     {
         takeError(*input);
@@ -202,10 +208,11 @@ osgDB::ReaderWriter::WriteResult ReaderWriterOiio::writeImage(const osg::Image& 
         return WriteResult(error);
     }
     std::string format = settings.format;
+    std::string extension = usualExtension(format);
     if (format.empty())
     {
-        format =
-            lookUp(readableExtensions(), osgDB::getLowerCaseFileExtension(image.getFileName()));
+        extension = osgDB::getLowerCaseFileExtension(image.getFileName());
+        format = lookUp(readableExtensions(), extension);
     }
     if (!isWritable(format))
     {
@@ -215,13 +222,14 @@ osgDB::ReaderWriter::WriteResult ReaderWriterOiio::writeImage(const osg::Image& 
     if (supportsMemory(format, true))
     {
         OIIO::Filesystem::IOVecOutput memory;
-        const WriteResult result = encodeImage(image, format, StreamName, &memory, settings);
+        const WriteResult result =
+            encodeImage(image, format, streamName(extension), &memory, settings);
         const auto& bytes = memory.buffer();
         stream.write(reinterpret_cast<const char*>(bytes.data()), bytes.size());
         return result.success() && !stream ? WriteResult(failure(StreamName, "cannot be written"))
                                            : result;
     }
-    const TemporaryFile file(format);
+    const TemporaryFile file(extension);
     const WriteResult result = encodeImage(image, format, file.getName(), nullptr, settings);
     if (result.success())
     {

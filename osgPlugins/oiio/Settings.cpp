@@ -118,7 +118,8 @@ const std::map<std::string, std::string>& describeSettings()
         {"oiio.maxMegabytes", "=N: refuse pictures that are larger once decoded, 1 to 4095 (2047)"},
         {"oiio.quality", "=N: quality of lossy encoders, 1 to 100"},
         {"oiio.compression", "=NAME: e.g. zip, piz, dwaa (exr), lzw (tif), lossless (webp)"},
-        {"oiio.type", "=uint8|uint16|half|float: pixel type to write (default: the image's)"}};
+        {"oiio.type",
+         "=uint8|uint16|half|float: pixel type to read as or to write (default: as it is)"}};
     return descriptions;
 }
 

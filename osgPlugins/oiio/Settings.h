@@ -23,7 +23,8 @@ struct Settings
     std::uint64_t maxBytes = 2047ull << 20; ///< A picture with more decoded bytes is refused.
     int quality = 0;         ///< Of lossy encoders, 1 to 100; 0: OpenImageIO's default.
     std::string compression; ///< As the format names it; empty: its default.
-    OIIO::TypeDesc type = OIIO::TypeUnknown; ///< Pixel type to write; unknown: the image's own.
+    OIIO::TypeDesc type =
+        OIIO::TypeUnknown; ///< Pixel type to read as or to write; unknown: as it is.
 };
 
 /// Fills the settings from the options (which may be null) and returns true, or returns false

@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace osgOSMesa
 {
@@ -67,6 +68,8 @@ const osgHeadless::Limits* OSMesaBackend::getLimits(std::string& error)
     {
         const auto restore = rememberCurrent();
         _asked = askGl(_limits, error);
+        // OSMesa registered its own clean-up with its first context, so this runs before it.
+        std::atexit(&OSMesaSurface::forgetOSMesa);
         restore();
     }
     return _asked ? &_limits : nullptr;

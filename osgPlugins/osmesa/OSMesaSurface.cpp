@@ -4,6 +4,7 @@
 
 #include <GL/glext.h>
 
+#include <atomic>
 #include <new>
 
 namespace osgOSMesa
@@ -14,6 +15,8 @@ namespace
 
 // OSMesa tells the current context but not its memory, which making it current again needs.
 thread_local OSMesaSurface* currentSurface = nullptr;
+
+std::atomic<bool> mesaGone{false};
 
 std::vector<int> getContextAttributes(const osg::GraphicsContext::Traits& traits)
 {
@@ -42,9 +45,14 @@ OSMesaSurface* OSMesaSurface::getCurrent()
     return currentSurface;
 }
 
+void OSMesaSurface::forgetOSMesa()
+{
+    mesaGone = true;
+}
+
 OSMesaSurface::~OSMesaSurface()
 {
-    if (!_context)
+    if (!_context || mesaGone)
     {
         return;
     }
@@ -91,6 +99,10 @@ bool OSMesaSurface::create(const osg::GraphicsContext::Traits& traits, const OSM
 
 bool OSMesaSurface::makeCurrent(Surface* source)
 {
+    if (mesaGone)
+    {
+        return false;
+    }
     if (currentSurface && currentSurface != this)
     {
         // Another context may read our memory next, and OSMesa fills it only here.
@@ -114,6 +126,10 @@ bool OSMesaSurface::makeCurrent(Surface* source)
 
 bool OSMesaSurface::release()
 {
+    if (mesaGone)
+    {
+        return false;
+    }
     if (currentSurface)
     {
         currentSurface->finishFrame();

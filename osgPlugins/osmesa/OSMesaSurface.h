@@ -22,6 +22,10 @@ public:
     /// The surface that is current on the calling thread, or null.
     static OSMesaSurface* getCurrent();
 
+    /// From now on surfaces call OSMesa no more and are never current. For the time at exit when
+    /// OSMesa has cleaned up but windows of static objects still close.
+    static void forgetOSMesa();
+
     /// Makes the context. Returns false when OSMesa refuses.
     bool create(const osg::GraphicsContext::Traits& traits, const OSMesaSurface* shared);
 

@@ -5,6 +5,7 @@
 #include <support/HeadlessViewer.h>
 #include <support/NotifyCapture.h>
 
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -101,4 +102,4 @@ TEST_P(FeatureFamily, showsSomethingTheSameEachTimeAndNoTwoAreAlike)
 }
 
 INSTANTIATE_TEST_SUITE_P(FixedFunction, FeatureFamily, testing::ValuesIn(families()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& family) { return family.param; });

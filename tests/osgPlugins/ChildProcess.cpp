@@ -79,15 +79,22 @@ XServer::XServer()
         _exit(127);
     }
     close(ends[1]);
-    // The server writes its number when it is ready.
-    pollfd ready = {ends[0], POLLIN, 0};
+    // The server writes its number and a line feed when it is ready, in one piece or more.
+    std::string number;
     char buffer[16];
-    const ssize_t size = poll(&ready, 1, 20000) > 0 ? read(ends[0], buffer, sizeof buffer) : 0;
-    close(ends[0]);
-    if (size > 1)
+    pollfd ready = {ends[0], POLLIN, 0};
+    while (number.find('\n') == std::string::npos && poll(&ready, 1, 20000) > 0)
     {
-        _display = ":" + std::string(buffer, size - 1);
+        const ssize_t size = read(ends[0], buffer, sizeof buffer);
+        if (size <= 0)
+        {
+            break;
+        }
+        number.append(buffer, size);
     }
+    close(ends[0]);
+    const size_t end = number.find('\n');
+    _display = end != std::string::npos ? ":" + number.substr(0, end) : "";
 }
 
 XServer::~XServer()

@@ -85,9 +85,9 @@ protected:
     static void SetUpTestSuite()
     {
         auto* registry = osgDB::Registry::instance();
-        ASSERT_EQ(
+        ASSERT_NE(
             registry->loadLibrary(registry->createLibraryNameForExtension(Mesa ? "osmesa" : "egl")),
-            osgDB::Registry::LOADED);
+            osgDB::Registry::NOT_LOADED);
     }
 };
 
@@ -255,6 +255,7 @@ TEST_F(HeadlessWindowGLTest, pictureFollowsANewSize)
             setUp2D(*viewer.getCamera(), context);
             osg::ref_ptr<ReadPixels> reader = new ReadPixels;
             viewer.getCamera()->setFinalDrawCallback(reader);
+            viewer.getCamera()->setProjectionResizePolicy(osg::Camera::FIXED);
             viewer.setSceneData(makeQuad(osg::Vec4(0, 1, 0, 1)));
             viewer.realize();
             viewer.frame();
@@ -274,6 +275,42 @@ TEST_F(HeadlessWindowGLTest, pictureFollowsANewSize)
             EXPECT_EQ(context->getTraits()->width, 100);
         }
     }
+}
+
+TEST_F(HeadlessWindowGLTest, lastFrameOfEachWindowIsCaptured)
+{
+    const std::string folder = "windowing-" + Name + "/";
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    setenv("OSG_HEADLESS_CAPTURE", (folder + "last%d.png").c_str(), 1);
+    {
+        osgViewer::Viewer viewer;
+        viewer.setThreadingModel(osgViewer::Viewer::SingleThreaded);
+        const auto first = makeContext(makeTraits(32, 32));
+        const auto second = makeContext(makeTraits(16, 16, 4));
+        ASSERT_TRUE(first && second);
+        auto traits = makeTraits(8, 8);
+        traits->pbuffer = true;
+        EXPECT_TRUE(makeContext(traits));
+        osg::ref_ptr<osg::Camera> slave = new osg::Camera;
+        setUp2D(*viewer.getCamera(), first);
+        setUp2D(*slave, second);
+        viewer.addSlave(slave);
+        for (const osg::Vec4& colour : {osg::Vec4(1, 0, 0, 1), osg::Vec4(0, 1, 0, 0.5f)})
+        {
+            viewer.setSceneData(makeQuad(colour));
+            viewer.frame();
+        }
+    }
+    unsetenv("OSG_HEADLESS_CAPTURE");
+    for (const std::string file : {"last0.png", "last1.png"})
+    {
+        const auto image = osgDB::readRefImageFile(folder + file);
+        ASSERT_TRUE(image) << file;
+        EXPECT_EQ(image->s(), file == "last0.png" ? 32 : 16);
+        EXPECT_EQ(image->getColor(8, 8), osg::Vec4(0, 1, 0, 1)) << file << ": green and opaque";
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder + "last2.png")) << "a pixel buffer is no window";
 }
 
 TEST_F(HeadlessWindowGLTest, pixelBufferCamerasFillTheirTexture)
@@ -314,4 +351,63 @@ TEST_F(HeadlessWindowGLTest, pixelBufferCamerasFillTheirTexture)
         EXPECT_LT(centre.r(), 0.01f) << target;
         EXPECT_GT(centre.b(), 0.99f) << target;
     }
+}
+
+// Each runs in a fresh process.
+class HeadlessExitGLTest : public HeadlessWindowGLTest
+{
+protected:
+    void SetUp() override { GTEST_FLAG_SET(death_test_style, "threadsafe"); }
+};
+
+TEST_F(HeadlessExitGLTest, unloadedPluginLeavesTheList)
+{
+    const auto unload = []
+    {
+        auto* registry = osgDB::Registry::instance();
+        registry->closeLibrary(registry->createLibraryNameForExtension(Mesa ? "osmesa" : "egl"));
+        const auto& systems = osg::GraphicsContext::getWindowingSystemInterfaces()->getInterfaces();
+        std::exit(systems.empty() || systems.front()->getName() != Name ? 0 : 3);
+    };
+    EXPECT_EXIT(unload(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(HeadlessExitGLTest, windowsThatOutliveThePluginDoNotCrash)
+{
+    const auto leave = []
+    {
+        static osg::ref_ptr<osg::GraphicsContext> window;
+        window = makeContext(makeTraits(16, 16));
+        window->realize();
+        window->makeCurrent();
+        auto* registry = osgDB::Registry::instance();
+        registry->closeLibrary(registry->createLibraryNameForExtension(Mesa ? "osmesa" : "egl"));
+        std::exit(window->releaseContext() && window->makeCurrent() ? 0 : 3);
+    };
+    EXPECT_EXIT(leave(), testing::ExitedWithCode(0), "");
+}
+
+TEST_F(HeadlessExitGLTest, failedWindowFailsTheProcessOnlyWhenAPictureIsAskedFor)
+{
+    const auto fail = [](bool picture)
+    {
+        if (picture)
+        {
+            setenv("OSG_HEADLESS_CAPTURE", "a.png", 1);
+        }
+        std::exit(makeContext(makeTraits(20000, 20000)) ? 3 : 0);
+    };
+    EXPECT_EXIT(fail(false), testing::ExitedWithCode(0), "is larger than");
+    EXPECT_EXIT(fail(true), testing::ExitedWithCode(1), "is larger than");
+}
+
+TEST_F(HeadlessExitGLTest, windowWithoutAFrameFailsTheProcessThatAskedForAPicture)
+{
+    const auto run = []
+    {
+        setenv("OSG_HEADLESS_CAPTURE", "a.png", 1);
+        makeContext(makeTraits(16, 16));
+        std::exit(0);
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(1), "no frame was drawn");
 }

@@ -291,6 +291,7 @@ struct Failure
 };
 
 const std::vector<Failure> Failures = {
+    {"egl", {"--screen", "3"}, {}, "there is no screen 3, only 1", "name a lower one"},
     {"egl",
      {"--window", "0", "0", "20000", "20000"},
      {},
@@ -340,6 +341,7 @@ TEST_F(WindowingGLTest, failuresAreOneLineWithCauseAndRemedyAndNoPicture)
         environment["OSG_HEADLESS_CAPTURE"] = file;
         const ChildResult result = view(failure.backend, arguments, environment);
         EXPECT_EQ(result.status, 1);
+        // osgviewer opens its default window after some of these; its picture would be wrong.
         EXPECT_FALSE(std::filesystem::exists(file));
         const size_t line = result.output.find("osgdb_" + std::string(failure.backend) + ": ");
         ASSERT_NE(line, std::string::npos) << result.output;
@@ -348,17 +350,6 @@ TEST_F(WindowingGLTest, failuresAreOneLineWithCauseAndRemedyAndNoPicture)
         EXPECT_NE(text.find(failure.remedy), std::string::npos) << text;
         EXPECT_EQ(result.output.find("osgdb_", line + 1), std::string::npos) << result.output;
     }
-}
-
-TEST_F(WindowingGLTest, missingScreenIsNamedAndEndsTheProcessWithFailure)
-{
-    // osgviewer then opens a window on the default screen, so there is a picture.
-    const ChildResult result = view("egl", {"--screen", "3", Chair},
-                                    {{"OSG_HEADLESS_CAPTURE", getPicture("no_screen.png")}});
-    EXPECT_EQ(result.status, 1);
-    EXPECT_NE(result.output.find("osgdb_egl: there is no screen 3, only 1; name a lower one"),
-              std::string::npos)
-        << result.output;
 }
 
 TEST_F(WindowingGLTest, failedWritesEndTheProcessWithFailure)
@@ -406,7 +397,7 @@ TEST_F(WindowingGLTest, eglEqualsARealX11Window)
     }
     for (const unsigned int samples : {0u, 4u})
     {
-        for (const std::string model : {"chair", "household/teapot", "scenes/glider"})
+        for (const std::string model : {"chair", "engine"})
         {
             const std::string file = Models + model + ".iv";
             const auto x11 = renderInX11(server.getDisplay(), file, samples);
