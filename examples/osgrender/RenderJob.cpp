@@ -328,6 +328,9 @@ void RenderJob::gatherStatistics()
     _report.programsReused = sum("programs.reused");
     _report.textureBytes = _capture->getTextureBytes();
     _report.renderer = _capture->getRenderer();
+    const osg::Camera& camera = *_viewer->getCamera();
+    const osg::Vec3d middle = _model->getBound().center();
+    _report.camera = describeCamera(camera, -(middle * camera.getViewMatrix()).z());
 }
 
 void RenderJob::gatherTimes(unsigned int firstFrame)

@@ -123,7 +123,7 @@ int renderScripts(const ProcessArguments& process, Backend backend, WarningCount
     for (const ScriptLine& line : lines)
     {
         osg::Timer timer;
-        progress.begin(line.place);
+        progress.begin(line.place + (line.words.empty() ? "" : " " + line.words.front()));
         GalleryEntry& entry = entries.emplace_back();
         renderLine(line, process, backend, counter, entry);
         if (!entry.error.empty())
