@@ -174,9 +174,8 @@ std::string describeCamera(const osg::Camera& camera, double distance)
     camera.getViewMatrixAsLookAt(eye, center, up, distance > 0.0 ? distance : 1.0);
     double fov = 0.0, aspect = 0.0, zNear = 0.0, zFar = 0.0;
     std::ostringstream text;
-    const auto write = [&text](const char* name, const osg::Vec3d& v) {
-        text << name << v.x() << "," << v.y() << "," << v.z() << ";";
-    };
+    const auto write = [&text](const char* name, const osg::Vec3d& v)
+    { text << name << v.x() << "," << v.y() << "," << v.z() << ";"; };
     write("eye:", eye);
     write("center:", center);
     write("up:", up);
