@@ -8,6 +8,7 @@
 #include <osgGA/TrackballManipulator>
 
 #include <set>
+#include <sstream>
 
 namespace osgrender
 {
@@ -165,6 +166,22 @@ bool aim(osg::Camera& camera, osg::Node& scene, const CameraSetting& setting, st
     }
     camera.setViewMatrixAsLookAt(*setting.eye, center, setting.up);
     return true;
+}
+
+std::string describeCamera(const osg::Camera& camera, double distance)
+{
+    osg::Vec3d eye, center, up;
+    camera.getViewMatrixAsLookAt(eye, center, up, distance > 0.0 ? distance : 1.0);
+    double fov = 0.0, aspect = 0.0, zNear = 0.0, zFar = 0.0;
+    std::ostringstream text;
+    const auto write = [&text](const char* name, const osg::Vec3d& v)
+    { text << name << v.x() << "," << v.y() << "," << v.z() << ";"; };
+    write("eye:", eye);
+    write("center:", center);
+    write("up:", up);
+    if (camera.getProjectionMatrixAsPerspective(fov, aspect, zNear, zFar))
+        text << "fov:" << fov;
+    return text.str();
 }
 
 osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file, std::string& error)

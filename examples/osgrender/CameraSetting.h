@@ -34,6 +34,10 @@ bool parseCamera(const std::string& text, CameraSetting& setting, std::string& e
 /// eye is the centre of the scene.
 bool aim(osg::Camera& camera, osg::Node& scene, const CameraSetting& setting, std::string& error);
 
+/// Where a camera is, as parseCamera() reads it, to six digits; center is `distance` before the
+/// eye.
+std::string describeCamera(const osg::Camera& camera, double distance);
+
 /// Reads OSG's `.path` (time, position, rotation a line, as osgviewer's z key saves it).
 osg::ref_ptr<osg::AnimationPath> readCameraPath(const std::string& file, std::string& error);
 

@@ -314,7 +314,10 @@ void RenderJob::gatherStatistics()
         }
         return total;
     };
-    _report.drawCalls = read("Visible number of PrimitiveSets") + sum("drawCalls");
+    // OSG's statistics have each leaf once; a kit adds the draws of its further passes.
+    const double leaves = sum("leaves.program") + sum("leaves.fixedFunction");
+    _report.drawCalls =
+        read("Visible number of PrimitiveSets") + std::max(0.0, sum("drawCalls") - leaves);
     _report.triangles = sum("triangles");
     for (const char* mode : {"GL_TRIANGLES", "GL_TRIANGLE_STRIP", "GL_TRIANGLE_FAN", "GL_POLYGON"})
         _report.triangles += read(std::string("Visible number of ") + mode);
@@ -325,6 +328,9 @@ void RenderJob::gatherStatistics()
     _report.programsReused = sum("programs.reused");
     _report.textureBytes = _capture->getTextureBytes();
     _report.renderer = _capture->getRenderer();
+    const osg::Camera& camera = *_viewer->getCamera();
+    const osg::Vec3d middle = _model->getBound().center();
+    _report.camera = describeCamera(camera, -(middle * camera.getViewMatrix()).z());
 }
 
 void RenderJob::gatherTimes(unsigned int firstFrame)

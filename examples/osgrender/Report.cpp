@@ -65,6 +65,7 @@ nlohmann::json toJson(const Report& report)
         {"size", {report.width, report.height}},
         {"samples", report.samples},
         {"frames", report.frames},
+        {"camera", report.camera},
         {"loadMs", report.loadMs},
         {"firstFrameMs", report.firstFrameMs},
         {"frameMs", toJson(report.frame)},

@@ -31,6 +31,7 @@ struct Report
     Renderer renderer;
     int width = 0, height = 0, samples = 0; ///< Samples as asked for.
     int frames = 0;
+    std::string camera;           ///< Of the last frame, as --camera takes it.
     double loadMs = 0.0;          ///< Reading and optimizing the model.
     double firstFrameMs = 0.0;    ///< With all uploads and compilations.
     Times frame, cull, draw, gpu; ///< Of the timed frames; gpu is empty without timer queries.

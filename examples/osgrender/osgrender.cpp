@@ -10,6 +10,7 @@
 #include <osg/Timer>
 #include <osgDB/FileNameUtils>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
@@ -98,6 +99,14 @@ void renderLine(const ScriptLine& line, const ProcessArguments& process, Backend
         entry.picture = browserPicture(arguments);
 }
 
+/// What -o names first, to be shown before the line is parsed.
+std::string firstPicture(const ScriptLine& line)
+{
+    const auto found = std::find(line.words.begin(), line.words.end(), "-o");
+    const bool named = found != line.words.end() && found + 1 != line.words.end();
+    return named ? osgDB::getSimpleFileName(*(found + 1)) : std::string();
+}
+
 bool readScripts(const ProcessArguments& process, std::vector<ScriptLine>& lines,
                  std::string& error)
 {
@@ -123,7 +132,7 @@ int renderScripts(const ProcessArguments& process, Backend backend, WarningCount
     for (const ScriptLine& line : lines)
     {
         osg::Timer timer;
-        progress.begin(line.place);
+        progress.begin(line.place + " " + firstPicture(line));
         GalleryEntry& entry = entries.emplace_back();
         renderLine(line, process, backend, counter, entry);
         if (!entry.error.empty())

@@ -119,6 +119,16 @@ TEST_F(OsgRenderGLTest, homeCanBeTurnedLiftedAndZoomed)
     EXPECT_NEAR(countPixels(*picture("lift.png"), 0) / home, 0.5, 0.05);
 }
 
+TEST_F(OsgRenderGLTest, cameraOfTheStatisticsGivesTheSamePicture)
+{
+    const std::string model = support::inventorModel("engine.iv");
+    expectRenders({model, "-o", "a.png", "--camera", "home;turn:30;lift:20", "--stats", "a.json"});
+    const std::string camera = nlohmann::json::parse(read("a.json")).at("camera");
+    // Six digits of the eye move an edge by less than a pixel, so some pixels at edges differ.
+    expectRenders(
+        {model, "--reference", "a.png", "--camera", camera, "--tolerance", "2/255,0.2%,1"});
+}
+
 TEST_F(OsgRenderGLTest, malformedCamerasAreNamed)
 {
     const std::vector<std::pair<std::string, std::string>> cases = {
