@@ -18,8 +18,10 @@ double attenuationAt(const EyeLight& light, double distance)
 
 double brightness(const EyeLight& light)
 {
-    const glm::vec3 sum = light.ambient + light.diffuse + light.specular;
-    return std::max({double(sum.x), double(sum.y), double(sum.z), 0.0});
+    // GL allows negative intensities: such a light takes away.
+    const glm::vec3 sum =
+        glm::abs(light.ambient) + glm::abs(light.diffuse) + glm::abs(light.specular);
+    return std::max({double(sum.x), double(sum.y), double(sum.z)});
 }
 
 double reachOf(const EyeLight& light, double threshold)

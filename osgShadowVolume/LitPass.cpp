@@ -22,7 +22,11 @@ namespace
 {
 
 constexpr std::size_t maxListed = 32;     ///< Lights of a state up to which each leaf has its list.
-constexpr double budget = 0.5 / 255.0;    ///< What all left-out lights may add to a pixel.
+/// What left-out lights may add to a pixel: half of it by those that the whole view leaves out, half
+/// by those that a leaf does.
+constexpr double budget = 0.5 / 255.0;
+constexpr double viewBudget = 0.5 * budget;
+constexpr double leafBudget = 0.5 * budget;
 constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
 constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
 
@@ -100,11 +104,14 @@ double radicalInverse(unsigned int i, unsigned int base)
 
 } // namespace
 
-LitPass::LitPass(const LitScene& scene) : _scene(scene) {}
+LitPass::LitPass(const LitScene& scene)
+    : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope())
+{
+}
 
 LightingMode LitPass::getLighting() const
 {
-    switch (_scene.getLighting())
+    switch (_lighting)
     {
     case LitScene::Lighting::OFF:
         return LightingMode::Off;
@@ -121,7 +128,7 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     std::map<int, std::size_t> lastOf;
     std::vector<EyeLight> all;
     frame.forEachLight([&](const osg::Light& light, const osg::Matrix* matrix) {
-        if (_scene.getLightScope() == LitScene::LightScope::MODES)
+        if (_lightScope == LitScene::LightScope::MODES)
         {
             const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
             if (!isNew) // GL keeps the last one of a number.
@@ -132,11 +139,11 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
         }
         all.push_back(toEye(light, matrix));
     });
-    if (_scene.getLighting() != LitScene::Lighting::PIXEL)
+    if (_lighting != LitScene::Lighting::PIXEL)
     {
         for (const EyeLight& light : all)
         {
-            if (_scene.getLighting() == LitScene::Lighting::OFF)
+            if (_lighting == LitScene::Lighting::OFF)
                 _dropped.push_back({light, "lighting is off"});
             else if (light.number >= int(SurfaceState::MaxGLLights))
                 _dropped.push_back({light, "GL has lights 0 to 7 only; lighting=pixel has all"});
@@ -156,9 +163,11 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     _unbounded = _unbounded || !std::isfinite(glm::length(_boxMax - _boxMin));
     const glm::dvec3 center = 0.5 * (_boxMin + _boxMax);
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
-    const double threshold = budget / std::max<std::size_t>(1, all.size());
+    const double threshold = viewBudget / std::max<std::size_t>(1, all.size());
     for (const EyeLight& light : all)
     {
+        if (!isUsable(light))
+            continue;
         const double reach = reachOf(light, threshold);
         if (brightness(light) == 0.0)
             _dropped.push_back({light, "it is black"});
@@ -176,15 +185,31 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
                                                        radicalInverse(i + 1, 5)));
 }
 
+bool LitPass::isUsable(const EyeLight& light)
+{
+    const double values[] = {brightness(light),
+                             glm::dot(light.position, light.position),
+                             glm::dot(light.spotDirection, light.spotDirection),
+                             double(light.constantAttenuation),
+                             double(light.linearAttenuation),
+                             double(light.quadraticAttenuation),
+                             double(light.spotCutoffDegrees),
+                             double(light.spotExponent)};
+    if (std::all_of(std::begin(values), std::end(values), [](double x) { return std::isfinite(x); }))
+        return true;
+    _dropped.push_back({light, "a parameter of it is infinite or not a number"});
+    return false;
+}
+
 void LitPass::fillReach(LightSet& set) const
 {
-    double threshold = budget / std::max<std::size_t>(1, set.lights.size());
+    double threshold = leafBudget / std::max<std::size_t>(1, set.lights.size());
     if (set.lights.size() > maxListed)
     {
         std::vector<EyeLight> lights;
         for (std::uint32_t light : set.lights)
             lights.push_back(_lights[light]);
-        threshold = thresholdFor(lights, _points, budget);
+        threshold = thresholdFor(lights, _points, leafBudget);
     }
     set.reach.assign(_lights.size(), 0.0);
     for (std::uint32_t light : set.lights)
@@ -193,7 +218,7 @@ void LitPass::fillReach(LightSet& set) const
 
 LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
 {
-    const bool all = _scene.getLightScope() == LitScene::LightScope::ALL;
+    const bool all = _lightScope == LitScene::LightScope::ALL;
     const std::pair<std::uint32_t, const void*> key =
         all ? std::make_pair(0u, static_cast<const void*>(nullptr))
             : std::make_pair(state.getModes() & (SurfaceState::Light0 * 255u),
@@ -298,7 +323,7 @@ bool LitPass::isUniform(const List& list) const
 
 void LitPass::end(osg::RenderInfo& renderInfo)
 {
-    if (_scene.getLighting() != LitScene::Lighting::PIXEL || _lists.empty())
+    if (_lighting != LitScene::Lighting::PIXEL || _lists.empty())
         return;
     bool needsTextures = false;
     for (List& list : _lists)
@@ -315,7 +340,8 @@ void LitPass::end(osg::RenderInfo& renderInfo)
     if (!needsTextures)
         return;
     // Only lights that some leaf uses go to the GPU.
-    std::vector<const EyeLight*> lights;
+    std::vector<const EyeLight*>& lights = _gpuLights;
+    std::vector<std::int32_t>& data = _gpuLists;
     std::vector<std::int32_t> index(_lights.size(), 0);
     for (std::size_t i = 0; i < _lights.size(); ++i)
         if (_used[i])
@@ -323,7 +349,6 @@ void LitPass::end(osg::RenderInfo& renderInfo)
             index[i] = static_cast<std::int32_t>(lights.size());
             lights.push_back(&_lights[i]);
         }
-    std::vector<std::int32_t> data;
     for (List& list : _lists)
     {
         if (isUniform(list))
@@ -345,7 +370,7 @@ void LitPass::end(osg::RenderInfo& renderInfo)
         }
     }
     _textures = _scene._textures->get(renderInfo.getContextID());
-    _textures->set(lights, data);
+    _textures->set(this, lights, data);
 }
 
 SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
@@ -383,9 +408,14 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
     return snippet;
 }
 
-const osg::StateSet* LitPass::getStateSet() const
+const osg::StateSet* LitPass::startRun()
 {
-    return _textures ? _textures->stateSet.get() : nullptr;
+    _applied.clear();
+    if (!_textures)
+        return nullptr;
+    if (!_textures->isOf(this))
+        _textures->set(this, _gpuLights, _gpuLists);
+    return _textures->stateSet.get();
 }
 
 void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
