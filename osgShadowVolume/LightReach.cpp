@@ -21,7 +21,8 @@ double brightness(const EyeLight& light)
     // GL allows negative intensities: such a light takes away.
     const glm::vec3 sum =
         glm::abs(light.ambient) + glm::abs(light.diffuse) + glm::abs(light.specular);
-    return std::max({double(sum.x), double(sum.y), double(sum.z)});
+    const double most = std::max({double(sum.x), double(sum.y), double(sum.z)});
+    return std::isnan(sum.x + sum.y + sum.z) ? std::numeric_limits<double>::quiet_NaN() : most;
 }
 
 double reachOf(const EyeLight& light, double threshold)
