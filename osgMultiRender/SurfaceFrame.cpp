@@ -86,16 +86,16 @@ private:
     std::vector<osg::ref_ptr<osg::Drawable>> _leaves;
 };
 
-/// The name under which a StateSet of the leaf's path asked for the bin.
-std::string binNameOf(const osgUtil::RenderLeaf& leaf, int number)
+/// The StateSet of the leaf's path that asked for the bin, or null.
+const osg::StateSet* askedForBin(const osgUtil::RenderLeaf& leaf, int number)
 {
     for (const osgUtil::StateGraph* graph = leaf._parent; graph; graph = graph->_parent)
     {
         const osg::StateSet* stateSet = graph->getStateSet();
         if (stateSet && stateSet->useRenderBinDetails() && stateSet->getBinNumber() == number)
-            return stateSet->getBinName();
+            return stateSet;
     }
-    return "RenderBin";
+    return nullptr;
 }
 
 const osgUtil::RenderLeaf* anyLeafOf(const osgUtil::RenderBin& bin)
@@ -147,11 +147,14 @@ void SurfaceFrame::insertProxies(osgUtil::CullVisitor& visitor)
         _stage->addPreRenderStage(stage.get(), order);
     for (const auto& [order, stage] : _private->getPostRenderList())
         _stage->addPostRenderStage(stage.get(), order);
-    mirror(visitor, *_private, *_bin, 0);
+    // What ClearNodes in the subgraph set.
+    _stage->setClearColor(_private->getClearColor());
+    _stage->setClearMask(_private->getClearMask());
+    mirror(visitor, *_private, *_bin);
 }
 
 void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from,
-                          osgUtil::RenderBin& to, int path)
+                          osgUtil::RenderBin& to)
 {
     std::vector<osgUtil::RenderLeaf*> leaves;
     for (osgUtil::StateGraph* graph : from.getStateGraphList())
@@ -161,7 +164,7 @@ void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& fro
     {
         _bins.push_back(std::move(leaves));
         const std::size_t bin = _bins.size() - 1;
-        const auto* stateSet = _group->getProxyStateSet(path);
+        const auto* stateSet = _group->getProxyStateSet(bin);
         osgUtil::StateGraph* graph = visitor.getCurrentStateGraph()->find_or_insert(stateSet);
         if (graph->leaves_empty())
             to.addStateGraph(graph);
@@ -174,10 +177,16 @@ void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& fro
                                          _bins[bin][0]->_projection.get(),
                                          _bins[bin][0]->_modelview.get()));
     }
-    for (const auto& [number, bin] : from.getRenderBinList())
-        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*bin))
-            mirror(visitor, *bin, *to.find_or_insert(number, binNameOf(*leaf, number)),
-                   path * 1021 + number + 1);
+    for (const auto& [number, inner] : from.getRenderBinList())
+        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
+        {
+            const osg::StateSet* asked = askedForBin(*leaf, number);
+            // A bin that does not nest belongs to the stage of the view, wherever the group lies.
+            const bool escapes = &from == _private.get() && asked && !asked->getNestRenderBins();
+            osgUtil::RenderBin& outer = escapes ? *_stage : to;
+            mirror(visitor, *inner,
+                   *outer.find_or_insert(number, asked ? asked->getBinName() : "RenderBin"));
+        }
 }
 
 void SurfaceFrame::forEachLight(
@@ -325,8 +334,10 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         });
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+            {
                 _items[bin][i].leaf = _bins[bin][i];
-        _beyond["GLSL older than 3.30"] = 1;
+                ++_beyond["GLSL older than 3.30"];
+            }
     }
     else
     {
@@ -360,12 +371,16 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         }
         _withheld = withheld;
     }
+    std::unordered_map<const SurfaceVariant*, std::uint32_t> orderOf;
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
     {
-        for (const SurfaceItem& item : _items[bin])
+        for (SurfaceItem& item : _items[bin])
+        {
+            item.order = orderOf.emplace(item.variant, std::uint32_t(orderOf.size())).first->second;
             _itemOf[item.leaf] = item;
+        }
         std::stable_sort(_items[bin].begin(), _items[bin].end(),
-                         [](const SurfaceItem& a, const SurfaceItem& b) { return a.variant < b.variant; });
+                         [](const SurfaceItem& a, const SurfaceItem& b) { return a.order < b.order; });
     }
     writePlan(renderInfo);
 }
@@ -385,7 +400,7 @@ void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& le
 void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
 {
     osg::State& state = *renderInfo.getState();
-    const osg::StateSet* under = _pass->getStateSet();
+    const osg::StateSet* under = _pass->startRun();
     if (_withheld)
         state.pushStateSet(_withheld.get());
     if (under)

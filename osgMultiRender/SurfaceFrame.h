@@ -20,6 +20,7 @@ struct SurfaceItem
     osgUtil::RenderLeaf* leaf = nullptr;
     SurfaceVariant* variant = nullptr; ///< Null: the leaf keeps its own state.
     std::uint32_t number = 0;          ///< The kit's number of the leaf.
+    std::uint32_t order = 0;           ///< Of the variant, by first appearance in the frame.
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -35,7 +36,7 @@ public:
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
-    /// After the traversal: puts the proxies into the bins of the view.
+    /// After the traversal, below the same StateGraph: puts the proxies into the bins of the view.
     void insertProxies(osgUtil::CullVisitor& visitor);
 
     /// The stage of the view, which holds the positioned lights.
@@ -59,8 +60,7 @@ protected:
     ~SurfaceFrame() override;
 
 private:
-    void mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from, osgUtil::RenderBin& to,
-                int path);
+    void mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
     void resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);

@@ -9,6 +9,9 @@
 #include <osgUtil/CullVisitor>
 #include <osgUtil/PositionalStateContainer>
 
+#include <algorithm>
+#include <limits>
+
 namespace osgMultiRender
 {
 
@@ -20,23 +23,56 @@ class PrivateStage : public osgUtil::RenderStage
 {
 };
 
-/// Replaces the lights that GL does not know in the view's list of positioned attributes.
-void withholdExtraLights(osgUtil::PositionalStateContainer& container)
+/// Replaces the lights that GL does not know in a list of positioned attributes.
+void withholdExtraLights(osgUtil::PositionalStateContainer* container)
 {
-    for (auto& [attribute, matrix] : container.getAttrMatrixList())
+    if (!container)
+        return;
+    for (auto& [attribute, matrix] : container->getAttrMatrixList())
         if (auto* light = dynamic_cast<const osg::Light*>(attribute.get()))
             if (light->getLightNum() >= int(SurfaceState::MaxGLLights))
                 attribute = new WithheldLight(light, light->getLightNum());
 }
 
+/// Drawn before the stage of a view, when all of its lights are known: also those of siblings that
+/// come after the group.
+class LightGate : public osgUtil::RenderStage
+{
+public:
+    /// `stage` owns the gate.
+    explicit LightGate(osgUtil::RenderStage& stage) : _stage(stage) {}
+
+    void draw(osg::RenderInfo&, osgUtil::RenderLeaf*&) override
+    {
+        withholdExtraLights(_stage.getInheritedPositionalStateContainer());
+        withholdExtraLights(_stage.getPositionalStateContainer());
+    }
+
+private:
+    osgUtil::RenderStage& _stage;
+};
+
+/// What pushScope() marks the StateGraphs in use with; these are emptied before each traversal.
+struct ScopeMark
+{
+    osg::ref_ptr<osg::StateSet> stateSet = new osg::StateSet;
+    osg::ref_ptr<osg::Drawable> drawable = new osg::Drawable;
+
+    static const ScopeMark& instance()
+    {
+        static const ScopeMark mark;
+        return mark;
+    }
+};
+
 } // namespace
 
 SurfacePass::~SurfacePass() = default;
 
-SurfaceGroup::SurfaceGroup() : _scope(new osg::StateSet) {}
+SurfaceGroup::SurfaceGroup() = default;
 
 SurfaceGroup::SurfaceGroup(const SurfaceGroup& other, const osg::CopyOp& copyop)
-    : osg::Group(other, copyop), _scope(new osg::StateSet)
+    : osg::Group(other, copyop)
 {
 }
 
@@ -46,6 +82,7 @@ void SurfaceGroup::traverse(osg::NodeVisitor& visitor)
 {
     auto* cullVisitor = visitor.asCullVisitor();
     if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR || !cullVisitor ||
+        !cullVisitor->getCurrentRenderBin() ||
         dynamic_cast<PrivateStage*>(cullVisitor->getCurrentRenderBin()->getStage()))
         osg::Group::traverse(visitor);
     else
@@ -56,13 +93,31 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
 {
     osgUtil::RenderBin* bin = visitor.getCurrentRenderBin();
     osg::ref_ptr<SurfaceFrame> frame = new SurfaceFrame(*this, *bin, *new PrivateStage);
-    visitor.pushStateSet(_scope.get());
+    bin->getStage()->addPreRenderStage(new LightGate(*bin->getStage()),
+                                       std::numeric_limits<int>::min());
+    pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     osg::Group::traverse(visitor);
     visitor.setCurrentRenderBin(bin);
-    visitor.popStateSet();
     frame->insertProxies(visitor);
-    withholdExtraLights(*bin->getStage()->getPositionalStateContainer());
+    visitor.popStateSet();
+}
+
+void SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)
+{
+    const ScopeMark& mark = ScopeMark::instance();
+    for (std::size_t i = 0;; ++i)
+    {
+        visitor.pushStateSet(nthStateSet(_scopes, i));
+        osgUtil::StateGraph* marked =
+            visitor.getCurrentStateGraph()->find_or_insert(mark.stateSet.get());
+        if (marked->leaves_empty())
+        {
+            marked->addLeaf(new osgUtil::RenderLeaf(mark.drawable.get(), nullptr, nullptr));
+            return;
+        }
+        visitor.popStateSet();
+    }
 }
 
 void SurfaceGroup::resizeGLObjectBuffers(unsigned int maxSize)
@@ -74,34 +129,42 @@ void SurfaceGroup::resizeGLObjectBuffers(unsigned int maxSize)
 void SurfaceGroup::releaseGLObjects(osg::State* state) const
 {
     osg::Group::releaseGLObjects(state);
-    SurfaceVariantCache::instance().releaseGLObjects(state);
+    // Without a State this would take the programs from under other groups, in whichever thread
+    // they draw: a subgraph that the pager drops is released so.
+    if (state)
+        SurfaceVariantCache::instance().releaseGLObjects(state);
 }
 
-const osg::StateSet* SurfaceGroup::getProxyStateSet(int bin)
+const osg::StateSet* SurfaceGroup::nthStateSet(StateSets& stateSets, std::size_t index)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    osg::ref_ptr<osg::StateSet>& stateSet = _proxyStateSets[bin];
-    if (!stateSet)
+    while (stateSets.size() <= index)
     {
-        stateSet = new osg::StateSet;
-        stateSet->setThreadSafeRefUnref(true);
+        stateSets.push_back(new osg::StateSet);
+        stateSets.back()->setThreadSafeRefUnref(true);
     }
-    return stateSet.get();
+    return stateSets[index].get();
 }
 
 void SurfaceGroup::setPlan(const osg::Camera* camera, Plan plan)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    // Views that are gone have no plan.
+    _plans.erase(std::remove_if(_plans.begin(), _plans.end(),
+                                [](const ViewPlan& view)
+                                { return view.hasCamera && !view.camera.valid(); }),
+                 _plans.end());
     std::size_t index = 0;
     while (index < _plans.size() && _plans[index].camera.get() != camera)
         ++index;
     if (index == _plans.size())
-        _plans.push_back({camera, {}});
+        _plans.push_back({camera, camera != nullptr, {}});
     plan.view = camera && !camera->getName().empty() ? camera->getName()
                                                      : "camera " + std::to_string(index);
     _compiled += plan.counts["programs.compiledThisFrame"];
     plan.counts["programs.compiled"] = _compiled;
-    plan.counts["programs.reused"] = plan.counts["states"] - plan.counts["programs.compiledThisFrame"];
+    plan.counts["programs.reused"] =
+        plan.counts["states"] - plan.counts["programs.compiledThisFrame"];
     _plans[index].plan = std::move(plan);
     OSG_INFO << toString(_plans[index].plan) << std::flush;
 }

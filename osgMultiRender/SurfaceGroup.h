@@ -41,8 +41,9 @@ public:
     virtual void end(osg::RenderInfo& renderInfo) = 0;
     /// The GLSL that a key with these kit bits needs.
     virtual SurfaceSnippet makeSnippet(const SurfaceKey& key) const = 0;
-    /// Pushed under the variants while the frame's leaves are drawn; null for none.
-    virtual const osg::StateSet* getStateSet() const = 0;
+    /// Called before each run of leaves: since the last one other passes may have used the same
+    /// programs and textures. Returns what is pushed under the variants during the run; null for none.
+    virtual const osg::StateSet* startRun() = 0;
     /// Called with the variant's program in use, before the leaf is drawn.
     virtual void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
                        std::uint32_t number) = 0;
@@ -77,17 +78,24 @@ protected:
 private:
     friend class SurfaceFrame;
 
-    void cull(osgUtil::CullVisitor& visitor);
-    void setPlan(const osg::Camera* camera, Plan plan);
-    /// A StateSet of its own for each bin of each proxy, so that proxies do not share StateGraphs.
-    const osg::StateSet* getProxyStateSet(int bin);
+    using StateSets = std::vector<osg::ref_ptr<osg::StateSet>>;
 
-    osg::ref_ptr<osg::StateSet> _scope; ///< Keeps the subgraph's leaves apart from siblings'.
+    void cull(osgUtil::CullVisitor& visitor);
+    /// Pushes a StateSet that keeps the subgraph's leaves apart from those of siblings, and of this
+    /// group itself where the view has met it before (under another parent).
+    void pushScope(osgUtil::CullVisitor& visitor);
+    void setPlan(const osg::Camera* camera, Plan plan);
+    /// A StateSet of its own for each bin of proxies, so that they do not share StateGraphs.
+    const osg::StateSet* getProxyStateSet(std::size_t bin) { return nthStateSet(_proxies, bin); }
+    const osg::StateSet* nthStateSet(StateSets& stateSets, std::size_t index);
+
     mutable std::mutex _mutex;
-    std::map<int, osg::ref_ptr<osg::StateSet>> _proxyStateSets;
+    StateSets _scopes;
+    StateSets _proxies;
     struct ViewPlan
     {
         osg::observer_ptr<const osg::Camera> camera;
+        bool hasCamera = false;
         Plan plan;
     };
     std::vector<ViewPlan> _plans;

@@ -406,6 +406,8 @@ std::string beyond(const SurfaceState& state)
 {
     if (state.isOn(SurfaceState::AssemblyProgram))
         return "an ARB vertex or fragment program";
+    if (state.isOn(SurfaceState::PointSprites))
+        return "point sprites";
     if (state.usesUnitsBeyond())
         return "a texture unit above 3";
     if (auto* point = as<osg::Point>(state.get(SurfaceState::Point)))

@@ -52,6 +52,8 @@ std::uint32_t bitOfMode(osg::StateAttribute::GLMode mode)
     case GL_VERTEX_PROGRAM_ARB:
     case GL_FRAGMENT_PROGRAM_ARB:
         return SurfaceState::AssemblyProgram;
+    case GL_POINT_SPRITE_ARB:
+        return SurfaceState::PointSprites;
     default:
         return 0;
     }
@@ -198,9 +200,8 @@ void SurfaceState::applyTextureModes(const osg::StateSet& stateSet)
                 continue;
             if (unit < MaxTextureUnits)
                 _units[unit].modes.apply(bit, value);
-            else if ((bit & AnyTexture) && unit < 32)
-                _unitsBeyond = (value & osg::StateAttribute::ON) ? _unitsBeyond | (1u << unit)
-                                                                 : _unitsBeyond & ~(1u << unit);
+            else if (unit < MaxTextureUnits + UnitsBeyond && (bit & AnyTexture))
+                _unitsBeyond.apply(bit << (NumTargets * (unit - MaxTextureUnits)), value);
         }
 }
 

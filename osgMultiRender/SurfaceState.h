@@ -36,6 +36,7 @@ public:
         Fog = 1u << 3,
         ColorSum = 1u << 4,
         AssemblyProgram = 1u << 5, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB.
+        PointSprites = 1u << 6,    ///< osg::PointSprite sets it as a mode of all units.
         Light0 = 1u << 8,          ///< GL_LIGHT0 to GL_LIGHT7.
         ClipPlane0 = 1u << 16      ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE5.
     };
@@ -105,7 +106,7 @@ public:
     const void* getExtraLightsIdentity() const { return _extraLights.get(); }
 
     /// Whether a texture unit beyond MaxTextureUnits has a texture mode on.
-    bool usesUnitsBeyond() const { return _unitsBeyond != 0; }
+    bool usesUnitsBeyond() const { return _unitsBeyond.on != 0; }
 
 private:
     struct Modes
@@ -133,6 +134,9 @@ private:
     };
     using ExtraLights = std::vector<ExtraLight>;
 
+    static constexpr unsigned int NumTargets = 5;  ///< Bits of AnyTexture.
+    static constexpr unsigned int UnitsBeyond = 6; ///< Units whose targets one word holds.
+
     void applyModes(const osg::StateSet::ModeList& modes);
     void applyExtraLight(ExtraLights*& writable, unsigned int number,
                          osg::StateAttribute::OverrideValue value);
@@ -144,7 +148,7 @@ private:
     std::array<Slot, NumAttributes> _attributes;
     std::array<Slot, MaxGLLights> _lights;
     std::array<Unit, MaxTextureUnits> _units;
-    std::uint32_t _unitsBeyond = 0; ///< One bit a unit, units 4 to 31.
+    Modes _unitsBeyond; ///< NumTargets bits a unit, units 4 to 9.
     std::shared_ptr<const ExtraLights> _extraLights; ///< Sorted by number; shared until written.
 };
 

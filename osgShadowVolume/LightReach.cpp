@@ -18,8 +18,11 @@ double attenuationAt(const EyeLight& light, double distance)
 
 double brightness(const EyeLight& light)
 {
-    const glm::vec3 sum = light.ambient + light.diffuse + light.specular;
-    return std::max({double(sum.x), double(sum.y), double(sum.z), 0.0});
+    // GL allows negative intensities: such a light takes away.
+    const glm::vec3 sum =
+        glm::abs(light.ambient) + glm::abs(light.diffuse) + glm::abs(light.specular);
+    const double most = std::max({double(sum.x), double(sum.y), double(sum.z)});
+    return std::isnan(sum.x + sum.y + sum.z) ? std::numeric_limits<double>::quiet_NaN() : most;
 }
 
 double reachOf(const EyeLight& light, double threshold)

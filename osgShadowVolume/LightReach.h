@@ -40,11 +40,12 @@ struct EyeLight
 /// 1 / (c + l d + q d²); a denominator of 0 or less gives 1e30, the largest light that stays finite.
 OSGSHADOWVOLUME_EXPORT double attenuationAt(const EyeLight& light, double distance);
 
-/// The most that the light adds to a channel of a surface with materials up to 1, before attenuation.
+/// The most that the light changes a channel of a surface with materials up to 1, before attenuation.
+/// Negative intensities count by their size.
 OSGSHADOWVOLUME_EXPORT double brightness(const EyeLight& light);
 
-/// Distance beyond which the light adds less than `threshold` to any channel; infinity where there is
-/// none (directional lights, no attenuation, threshold 0), 0 for a light that never reaches it.
+/// Distance beyond which the light changes any channel by less than `threshold`; infinity where there
+/// is none (directional lights, no attenuation, threshold 0), 0 for a light that never reaches it.
 OSGSHADOWVOLUME_EXPORT double reachOf(const EyeLight& light, double threshold);
 
 /// Whether a light with this reach may light a point of the sphere. Never false for one that does:

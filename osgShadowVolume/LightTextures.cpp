@@ -77,9 +77,11 @@ LitScene::LightTextures::Context::Context()
     stateSet->setTextureAttribute(ListsUnit, lists, osg::StateAttribute::OVERRIDE);
 }
 
-void LitScene::LightTextures::Context::set(const std::vector<const EyeLight*>& eyeLights,
+void LitScene::LightTextures::Context::set(const LitPass* pass,
+                                           const std::vector<const EyeLight*>& eyeLights,
                                            const std::vector<std::int32_t>& list)
 {
+    _pass = pass;
     // Rows are whole: the tail of the last one stays as it was, and nothing reads it.
     const int lightRows = std::max<int>(1, int((eyeLights.size() + lightsPerRow - 1) / lightsPerRow));
     const int lightsInRow = lightRows > 1 ? lightsPerRow : std::max<int>(1, int(eyeLights.size()));

@@ -13,6 +13,8 @@
 namespace osgShadowVolume
 {
 
+class LitPass;
+
 /// Floats of a light in the layout of shaders/lights.frag: six vec4.
 constexpr int FloatsPerLight = 24;
 void packLight(const EyeLight& light, float* to);
@@ -34,11 +36,17 @@ public:
         osg::ref_ptr<osg::StateSet> stateSet; ///< Binds both, over the model's own state.
 
         Context();
-        /// Draw thread of the context only.
-        void set(const std::vector<const EyeLight*>& eyeLights, const std::vector<std::int32_t>& list);
+        /// Takes the light data of a pass. Draw thread of the context only.
+        void set(const LitPass* pass, const std::vector<const EyeLight*>& eyeLights,
+                 const std::vector<std::int32_t>& list);
+        /// Whether `pass` was the last to set its data.
+        bool isOf(const LitPass* pass) const { return _pass == pass; }
 
     protected:
         ~Context() override = default;
+
+    private:
+        const LitPass* _pass = nullptr; ///< Only compared, never followed.
     };
 
     osg::ref_ptr<Context> get(unsigned int contextID);

@@ -99,11 +99,14 @@ double radicalInverse(unsigned int i, unsigned int base)
 
 } // namespace
 
-LitPass::LitPass(const LitScene& scene) : _scene(scene) {}
+LitPass::LitPass(const LitScene& scene)
+    : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope())
+{
+}
 
 LightingMode LitPass::getLighting() const
 {
-    switch (_scene.getLighting())
+    switch (_lighting)
     {
     case LitScene::Lighting::OFF:
         return LightingMode::Off;
@@ -120,7 +123,7 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     std::map<int, std::size_t> lastOf;
     std::vector<EyeLight> all;
     frame.forEachLight([&](const osg::Light& light, const osg::Matrix* matrix) {
-        if (_scene.getLightScope() == LitScene::LightScope::MODES)
+        if (_lightScope == LitScene::LightScope::MODES)
         {
             const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
             if (!isNew) // GL keeps the last one of a number.
@@ -131,11 +134,11 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
         }
         all.push_back(toEye(light, matrix));
     });
-    if (_scene.getLighting() != LitScene::Lighting::PIXEL)
+    if (_lighting != LitScene::Lighting::PIXEL)
     {
         for (const EyeLight& light : all)
         {
-            if (_scene.getLighting() == LitScene::Lighting::OFF)
+            if (_lighting == LitScene::Lighting::OFF)
                 _dropped.push_back({light, "lighting is off"});
             else if (light.number >= int(SurfaceState::MaxGLLights))
                 _dropped.push_back({light, "GL has lights 0 to 7 only; lighting=pixel has all"});
@@ -157,9 +160,12 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     const osg::Vec3d middle = osg::Matrixd::inverse(_toGrid).preMult(box.center());
     const glm::dvec3 center(middle.x(), middle.y(), middle.z());
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
-    const double threshold = _scene.getLightTolerance() / std::max<std::size_t>(1, all.size());
+    // Half of the tolerance is for what the whole view leaves out, half for what a leaf does.
+    const double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, all.size());
     for (const EyeLight& light : all)
     {
+        if (!isUsable(light))
+            continue;
         const double reach = reachOf(light, threshold);
         if (brightness(light) == 0.0)
             _dropped.push_back({light, "it is black"});
@@ -198,15 +204,31 @@ glm::dvec3 LitPass::toGrid(const glm::dvec3& eye) const
     return {p.x(), p.y(), p.z()};
 }
 
+bool LitPass::isUsable(const EyeLight& light)
+{
+    const double values[] = {brightness(light),
+                             glm::dot(light.position, light.position),
+                             glm::dot(light.spotDirection, light.spotDirection),
+                             double(light.constantAttenuation),
+                             double(light.linearAttenuation),
+                             double(light.quadraticAttenuation),
+                             double(light.spotCutoffDegrees),
+                             double(light.spotExponent)};
+    if (std::all_of(std::begin(values), std::end(values), [](double x) { return std::isfinite(x); }))
+        return true;
+    _dropped.push_back({light, "a parameter of it is infinite or not a number"});
+    return false;
+}
+
 void LitPass::fillReach(LightSet& set) const
 {
-    double threshold = _scene.getLightTolerance() / std::max<std::size_t>(1, set.lights.size());
+    double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, set.lights.size());
     if (set.lights.size() > maxListed)
     {
         std::vector<EyeLight> lights;
         for (std::uint32_t light : set.lights)
             lights.push_back(_lights[light]);
-        threshold = thresholdFor(lights, _points, _scene.getLightTolerance());
+        threshold = thresholdFor(lights, _points, 0.5 * _scene.getLightTolerance());
     }
     set.reach.assign(_lights.size(), 0.0);
     for (std::uint32_t light : set.lights)
@@ -215,7 +237,7 @@ void LitPass::fillReach(LightSet& set) const
 
 LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
 {
-    const bool all = _scene.getLightScope() == LitScene::LightScope::ALL;
+    const bool all = _lightScope == LitScene::LightScope::ALL;
     const std::pair<std::uint32_t, const void*> key =
         all ? std::make_pair(0u, static_cast<const void*>(nullptr))
             : std::make_pair(state.getModes() & (SurfaceState::Light0 * 255u),
@@ -326,7 +348,7 @@ bool LitPass::isUniform(const List& list) const
 
 void LitPass::end(osg::RenderInfo& renderInfo)
 {
-    if (_scene.getLighting() != LitScene::Lighting::PIXEL || _lists.empty())
+    if (_lighting != LitScene::Lighting::PIXEL || _lists.empty())
         return;
     bool needsTextures = false;
     for (List& list : _lists)
@@ -343,7 +365,8 @@ void LitPass::end(osg::RenderInfo& renderInfo)
     if (!needsTextures)
         return;
     // Only lights that some leaf uses go to the GPU.
-    std::vector<const EyeLight*> lights;
+    std::vector<const EyeLight*>& lights = _gpuLights;
+    std::vector<std::int32_t>& data = _gpuLists;
     std::vector<std::int32_t> index(_lights.size(), 0);
     for (std::size_t i = 0; i < _lights.size(); ++i)
         if (_used[i])
@@ -351,7 +374,6 @@ void LitPass::end(osg::RenderInfo& renderInfo)
             index[i] = static_cast<std::int32_t>(lights.size());
             lights.push_back(&_lights[i]);
         }
-    std::vector<std::int32_t> data;
     for (List& list : _lists)
     {
         if (isUniform(list))
@@ -373,7 +395,7 @@ void LitPass::end(osg::RenderInfo& renderInfo)
         }
     }
     _textures = _scene._textures->get(renderInfo.getContextID());
-    _textures->set(lights, data);
+    _textures->set(this, lights, data);
 }
 
 SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
@@ -411,9 +433,14 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
     return snippet;
 }
 
-const osg::StateSet* LitPass::getStateSet() const
+const osg::StateSet* LitPass::startRun()
 {
-    return _textures ? _textures->stateSet.get() : nullptr;
+    _applied.clear();
+    if (!_textures)
+        return nullptr;
+    if (!_textures->isOf(this))
+        _textures->set(this, _gpuLights, _gpuLists);
+    return _textures->stateSet.get();
 }
 
 void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,

@@ -15,7 +15,8 @@ namespace osgShadowVolume
 /// Lights the leaves of a LitScene in one view of one frame.
 ///
 /// Each leaf gets the list of the lights that reach it, as uniforms where they are few; where a state
-/// has many lights, its leaves share a grid instead. What is left out adds less than half a step of 8 bits to any pixel.
+/// has many lights, its leaves share a grid instead. What is left out adds less than half a step of 8
+/// bits to any pixel.
 class LitPass : public osgMultiRender::SurfacePass
 {
 public:
@@ -27,7 +28,7 @@ public:
                   osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
     void end(osg::RenderInfo& renderInfo) override;
     osgMultiRender::SurfaceSnippet makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
-    const osg::StateSet* getStateSet() const override;
+    const osg::StateSet* startRun() override;
     void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                std::uint32_t number) override;
     void fillPlan(osgMultiRender::Plan& plan) const override;
@@ -56,6 +57,8 @@ private:
         std::string reason;
     };
 
+    /// False, and the light is listed as dropped, where nothing can be computed with it.
+    bool isUsable(const EyeLight& light);
     LightSet& setOf(const osgMultiRender::SurfaceState& state);
     void chooseGridAxes(const osgMultiRender::SurfaceFrame& frame);
     glm::dvec3 toGrid(const glm::dvec3& eye) const;
@@ -65,6 +68,8 @@ private:
     bool isUniform(const List& list) const;
 
     const LitScene& _scene;
+    const LitScene::Lighting _lighting;     ///< Of the cull; the update may change the scene's.
+    const LitScene::LightScope _lightScope; ///< Likewise.
     std::vector<EyeLight> _lights;
     std::vector<bool> _used;
     std::vector<Dropped> _dropped;
@@ -77,7 +82,9 @@ private:
     std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
     std::vector<List> _lists;
-    /// The list that each program's uniforms hold.
+    std::vector<const EyeLight*> _gpuLights; ///< What the textures hold.
+    std::vector<std::int32_t> _gpuLists;     ///< Likewise.
+    /// The list that each program's uniforms hold during a run.
     std::map<const osgMultiRender::SurfaceVariant*, std::uint32_t> _applied;
     osg::ref_ptr<LitScene::LightTextures::Context> _textures; ///< Null while no leaf needs a light.
 };
