@@ -406,6 +406,23 @@ TEST_F(OsgRenderGLTest, statisticsHaveAllKeysAndSaneValues)
     EXPECT_GT(stats.at("loadMs"), 0.0);
 }
 
+TEST_F(OsgRenderGLTest, kitsPlansAndProgramsAreReported)
+{
+    const std::string model = support::inventorModel("engine.iv");
+    expectRenders({model, "--stats", "plain.json", "--timing", "0"});
+    expectRenders({model + ".(shadows=off,lighting=pixel).shadowvolume", "--stats", "kit.json",
+                   "--timing", "0"});
+    const nlohmann::json plain = nlohmann::json::parse(read("plain.json"));
+    const nlohmann::json kit = nlohmann::json::parse(read("kit.json"));
+    ASSERT_EQ(kit.at("plans").size(), 1u);
+    EXPECT_EQ(kit.at("plans")[0].at("kit"), "osgShadowVolume::LitScene");
+    EXPECT_FALSE(kit.at("plans")[0].at("entries").empty());
+    EXPECT_GE(kit.at("programs").at("compiled"), 1.0);
+    // One pass draws each leaf once, as without the kit.
+    EXPECT_EQ(kit.at("drawCalls"), plain.at("drawCalls"));
+    EXPECT_EQ(kit.at("triangles"), plain.at("triangles"));
+}
+
 TEST_F(OsgRenderGLTest, openGlErrorsAndWarningsAreCounted)
 {
     scenes::write(*scenes::squareWithLight(20), _folder.file("light.osgt"));
