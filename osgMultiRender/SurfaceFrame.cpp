@@ -141,7 +141,7 @@ SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil
 
 SurfaceFrame::~SurfaceFrame() = default;
 
-void SurfaceFrame::insertProxies(osgUtil::CullVisitor& visitor)
+void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
 {
     for (const auto& [order, stage] : _private->getPreRenderList())
         _stage->addPreRenderStage(stage.get(), order);
@@ -150,10 +150,10 @@ void SurfaceFrame::insertProxies(osgUtil::CullVisitor& visitor)
     // What ClearNodes in the subgraph set.
     _stage->setClearColor(_private->getClearColor());
     _stage->setClearMask(_private->getClearMask());
-    mirror(visitor, *_private, *_bin);
+    mirror(graph, *_private, *_bin);
 }
 
-void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from,
+void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
                           osgUtil::RenderBin& to)
 {
     std::vector<osgUtil::RenderLeaf*> leaves;
@@ -165,7 +165,7 @@ void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& fro
         _bins.push_back(std::move(leaves));
         const std::size_t bin = _bins.size() - 1;
         const auto* stateSet = _group->getProxyStateSet(bin);
-        osgUtil::StateGraph* graph = visitor.getCurrentStateGraph()->find_or_insert(stateSet);
+        osgUtil::StateGraph* graph = proxies.find_or_insert(stateSet);
         if (graph->leaves_empty())
             to.addStateGraph(graph);
         if (isOrdered(to))
@@ -184,7 +184,7 @@ void SurfaceFrame::mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& fro
             // A bin that does not nest belongs to the stage of the view, wherever the group lies.
             const bool escapes = &from == _private.get() && asked && !asked->getNestRenderBins();
             osgUtil::RenderBin& outer = escapes ? *_stage : to;
-            mirror(visitor, *inner,
+            mirror(proxies, *inner,
                    *outer.find_or_insert(number, asked ? asked->getBinName() : "RenderBin"));
         }
 }

@@ -36,8 +36,8 @@ public:
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
-    /// After the traversal, below the same StateGraph: puts the proxies into the bins of the view.
-    void insertProxies(osgUtil::CullVisitor& visitor);
+    /// After the traversal: puts proxies into the bins of the view, below `graph`.
+    void insertProxies(osgUtil::StateGraph& graph);
 
     /// The stage of the view, which holds the positioned lights.
     const osgUtil::RenderStage& getStage() const { return *_stage; }
@@ -60,7 +60,7 @@ protected:
     ~SurfaceFrame() override;
 
 private:
-    void mirror(osgUtil::CullVisitor& visitor, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
+    void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
     void resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);

@@ -95,28 +95,30 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
     osg::ref_ptr<SurfaceFrame> frame = new SurfaceFrame(*this, *bin, *new PrivateStage);
     bin->getStage()->addPreRenderStage(new LightGate(*bin->getStage()),
                                        std::numeric_limits<int>::min());
-    pushScope(visitor);
+    osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     osg::Group::traverse(visitor);
     visitor.setCurrentRenderBin(bin);
-    frame->insertProxies(visitor);
     visitor.popStateSet();
+    frame->insertProxies(proxies);
 }
 
-void SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)
+osgUtil::StateGraph& SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)
 {
+    osgUtil::StateGraph* root = visitor.getCurrentStateGraph();
+    while (root->_parent)
+        root = root->_parent;
     const ScopeMark& mark = ScopeMark::instance();
     for (std::size_t i = 0;; ++i)
     {
-        visitor.pushStateSet(nthStateSet(_scopes, i));
-        osgUtil::StateGraph* marked =
-            visitor.getCurrentStateGraph()->find_or_insert(mark.stateSet.get());
-        if (marked->leaves_empty())
-        {
-            marked->addLeaf(new osgUtil::RenderLeaf(mark.drawable.get(), nullptr, nullptr));
-            return;
-        }
-        visitor.popStateSet();
+        const osg::StateSet* scope = nthStateSet(_scopes, i);
+        osgUtil::StateGraph* proxies = root->find_or_insert(scope);
+        osgUtil::StateGraph* marked = proxies->find_or_insert(mark.stateSet.get());
+        if (!marked->leaves_empty())
+            continue;
+        marked->addLeaf(new osgUtil::RenderLeaf(mark.drawable.get(), nullptr, nullptr));
+        visitor.pushStateSet(scope);
+        return *proxies;
     }
 }
 

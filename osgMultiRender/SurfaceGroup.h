@@ -16,6 +16,7 @@ namespace osgUtil
 {
 class CullVisitor;
 class RenderLeaf;
+class StateGraph;
 } // namespace osgUtil
 
 namespace osgMultiRender
@@ -82,8 +83,9 @@ private:
 
     void cull(osgUtil::CullVisitor& visitor);
     /// Pushes a StateSet that keeps the subgraph's leaves apart from those of siblings, and of this
-    /// group itself where the view has met it before (under another parent).
-    void pushScope(osgUtil::CullVisitor& visitor);
+    /// group itself where the view has met it before (under another parent). Returns where proxies
+    /// belong: at the root, so that no state of the subgraph is left to OSG when they are drawn.
+    osgUtil::StateGraph& pushScope(osgUtil::CullVisitor& visitor);
     void setPlan(const osg::Camera* camera, Plan plan);
     /// A StateSet of its own for each bin of proxies, so that they do not share StateGraphs.
     const osg::StateSet* getProxyStateSet(std::size_t bin) { return nthStateSet(_proxies, bin); }
