@@ -35,4 +35,6 @@ if [ ! -f build/build.ninja ]; then
     mv build.log build/configure.log
 fi
 echo "Building in build/"
-NINJA_STATUS="[%f/%t %es] " cmake --build build
+# OSGKITS_TARGETS: only these, "osgrender osgdb_egl …"; all when it is not set.
+read -ra targets <<<"${OSGKITS_TARGETS:-all}"
+NINJA_STATUS="[%f/%t %es] " cmake --build build --target "${targets[@]}"

@@ -11,6 +11,9 @@ namespace osgMultiRender
 namespace
 {
 
+// In tokens. A bound, so that looking ahead for each name of "a[a[a[…" stays linear.
+constexpr std::size_t LongestArraySize = 64;
+
 bool isStorage(std::string_view word)
 {
     return word == "in" || word == "out" || word == "uniform" || word == "buffer";
@@ -56,7 +59,8 @@ bool GlslParser::startsType(std::size_t ahead) const
     while (word(next) == "[" || depth > 0)
     {
         const std::string_view text = word(next);
-        if (text.empty() || text == ";" || text == "{" || text == "}")
+        if (text.empty() || text == ";" || text == "{" || text == "}" ||
+            next > ahead + LongestArraySize)
         {
             return false;
         }

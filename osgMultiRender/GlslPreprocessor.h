@@ -20,6 +20,10 @@ struct GlslActiveTokens
 /// the first one alone. `version` is the value of `__VERSION__`.
 GlslActiveTokens preprocess(GlslSource& source, int version);
 
+/// One directive of a text, with its parts; `index` is that of its token.
+GlslDirective readDirective(const std::string& text, const GlslToken& token, std::size_t index,
+                            int version);
+
 /// The "#version" of a text that is tokenized; 110 without one.
 GlslVersion readVersion(const std::string& text, const std::vector<GlslToken>& tokens);
 

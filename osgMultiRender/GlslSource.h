@@ -63,7 +63,7 @@ struct GlslQualifier
 };
 
 /// What the declarators of one statement share: "layout(location = 0) out vec4[2]".
-struct GlslSpecifiers
+struct OSGMULTIRENDER_EXPORT GlslSpecifiers
 {
     std::vector<GlslQualifier> qualifiers;
     std::string type; ///< Empty for "invariant gl_Position;". "" too for an unnamed struct.

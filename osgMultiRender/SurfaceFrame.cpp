@@ -217,21 +217,23 @@ void SurfaceFrame::forEachLight(
     visit(_stage->getPositionalStateContainer(), nullptr);
 }
 
-osg::BoundingBox SurfaceFrame::getEyeBounds(bool& unbounded) const
+osg::BoundingBoxd SurfaceFrame::getBounds(const osg::Matrixd& matrix, bool& unbounded) const
 {
-    osg::BoundingBox bounds;
+    osg::BoundingBoxd bounds;
     unbounded = false;
     for (const auto& bin : _bins)
         for (const osgUtil::RenderLeaf* leaf : bin)
         {
             const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
             if (!box.valid())
+            {
                 unbounded = true;
-            else
-                for (unsigned int corner = 0; corner < 8; ++corner)
-                    bounds.expandBy(leaf->_modelview.valid()
-                                        ? box.corner(corner) * *leaf->_modelview
-                                        : box.corner(corner));
+                continue;
+            }
+            const osg::Matrixd toFrame =
+                leaf->_modelview.valid() ? osg::Matrixd(*leaf->_modelview) * matrix : matrix;
+            for (unsigned int corner = 0; corner < 8; ++corner)
+                bounds.expandBy(osg::Vec3d(box.corner(corner)) * toFrame);
         }
     return bounds;
 }
@@ -330,7 +332,8 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             OSG_WARN << _group->libraryName() << "::" << _group->className()
                      << ": OpenGL " << gl->glVersion << " with GLSL " << _languageVersion
                      << " is older than 3.3, so models keep their fixed-function look; a driver with "
-                        "the OpenGL 3.3 compatibility profile is needed\n";
+                        "the OpenGL 3.3 compatibility profile is needed"
+                     << std::endl;
         });
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
@@ -472,7 +475,7 @@ void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
     const std::string& name = variant.getProgram()->getName();
     OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
              << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
-             << errorsOf(*variant.getProgram(), state);
+             << errorsOf(*variant.getProgram(), state) << std::flush;
 }
 
 void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)

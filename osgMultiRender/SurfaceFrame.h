@@ -46,9 +46,9 @@ public:
     /// its matrix to eye coordinates (null for identity).
     void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const;
 
-    /// Eye-space box of all leaves that have a bound; invalid for none. Leaves without a bound make
-    /// it infinite in fact: then `unbounded` is set.
-    osg::BoundingBox getEyeBounds(bool& unbounded) const;
+    /// Box of all leaves that have a bound, in eye coordinates times `matrix`; invalid for none.
+    /// Leaves without a bound make it infinite in fact: then `unbounded` is set.
+    osg::BoundingBoxd getBounds(const osg::Matrixd& matrix, bool& unbounded) const;
 
     /// Draws the leaves of one mirrored bin, or one leaf.
     void drawBin(osg::RenderInfo& renderInfo, std::size_t bin);

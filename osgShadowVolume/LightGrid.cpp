@@ -10,7 +10,7 @@ namespace osgShadowVolume
 namespace
 {
 
-constexpr int maxCellsPerAxis = 64;
+constexpr int maxCellsPerAxis = 256;
 /// Pairs of a light and a cell that a grid may list: 16 MB, and some tens of milliseconds to find
 /// them.
 constexpr double maxPairs = 4 << 20;
@@ -36,7 +36,7 @@ struct CellRange
     std::size_t count() const
     {
         const glm::ivec3 n = last - first + 1;
-        return std::size_t(n.x) * n.y * n.z;
+        return n.x > 0 ? std::size_t(n.x) * n.y * n.z : 0;
     }
 };
 
@@ -53,19 +53,43 @@ struct Cells
 
     std::size_t count() const { return std::size_t(size.x) * size.y * size.z; }
 
+    /// How far the box goes on along a direction, from a point.
+    double depthOf(const glm::dvec3& point, const glm::dvec3& direction) const
+    {
+        const glm::dvec3 low = origin - point, high = low + cell * glm::dvec3(size);
+        return glm::dot(glm::max(low * direction, high * direction), glm::dvec3(1.0));
+    }
+
+    /// The cells that a box around what the light may light touches: a sphere, or the cone of a
+    /// spot as far as it lies in front of the box's end.
     CellRange rangeOf(const EyeLight& light, double reach) const
     {
-        const glm::dvec3 low = (light.position - reach - origin) / cell;
-        const glm::dvec3 high = (light.position + reach - origin) / cell;
+        glm::dvec3 low = light.position - reach, high = light.position + reach;
+        if (light.type == EyeLight::Spot && light.spotCutoffDegrees < 85.0f)
+        {
+            const double length = std::min(reach, depthOf(light.position, light.spotDirection));
+            if (!(length > 0.0))
+                return CellRange{glm::ivec3(0), glm::ivec3(-1)};
+            const glm::dvec3 end = light.position + length * light.spotDirection;
+            const double radius = length * std::tan(glm::radians(double(light.spotCutoffDegrees)));
+            const glm::dvec3 around =
+                radius * glm::sqrt(glm::max(1.0 - light.spotDirection * light.spotDirection,
+                                            glm::dvec3(0.0)));
+            low = glm::max(low, glm::min(light.position, end - around));
+            high = glm::min(high, glm::max(light.position, end + around));
+        }
+        // Half a millionth of the box more, for a fragment that rounds into the next cell.
+        const glm::dvec3 margin = 5e-7 * cell * glm::dvec3(size);
         const glm::dvec3 top = glm::dvec3(size - 1);
-        return CellRange{glm::ivec3(glm::clamp(glm::floor(low), glm::dvec3(0.0), top)),
-                         glm::ivec3(glm::clamp(glm::floor(high), glm::dvec3(0.0), top))};
+        return CellRange{
+            glm::ivec3(glm::clamp(glm::floor((low - margin - origin) / cell), glm::dvec3(0.0), top)),
+            glm::ivec3(glm::clamp(glm::floor((high + margin - origin) / cell), glm::dvec3(0.0), top))};
     }
 
     /// Whether the light is better listed once for all cells.
     bool isEverywhere(const EyeLight& light, double reach) const
     {
-        return !std::isfinite(reach) || rangeOf(light, reach).count() * 2 > count();
+        return rangeOf(light, reach).count() * 2 > count();
     }
 
     template <class F> void forEachReached(const EyeLight& light, double reach, F f) const

@@ -9,10 +9,10 @@
 namespace osgShadowVolume
 {
 
-/// A regular grid over a box in eye coordinates; each cell lists the lights that reach it.
+/// A regular grid over a box; each cell lists the lights that reach it.
 ///
-/// Free of OSG and GL. A fragment finds its cell from its position alone, so one grid serves any
-/// projection. Lights that reach more than a share of all cells are listed once for the whole grid.
+/// Free of OSG and GL. Lights and box are in one frame of the caller's choice. A fragment finds its
+/// cell from its position alone, so one grid serves any projection. Lights that reach more than a share of all cells are listed once for the whole grid.
 class OSGSHADOWVOLUME_EXPORT LightGrid
 {
 public:
@@ -23,7 +23,7 @@ public:
 
     glm::dvec3 getOrigin() const { return _origin; }
     glm::dvec3 getCellSize() const { return _cell; }
-    glm::ivec3 getSize() const { return _size; } ///< Cells along each axis, 1 to 64.
+    glm::ivec3 getSize() const { return _size; } ///< Cells along each axis, 1 to 256.
 
     /// Lights that every cell has.
     const std::vector<std::uint32_t>& getEverywhere() const { return _everywhere; }

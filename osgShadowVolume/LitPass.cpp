@@ -22,11 +22,6 @@ namespace
 {
 
 constexpr std::size_t maxListed = 32;     ///< Lights of a state up to which each leaf has its list.
-/// What left-out lights may add to a pixel: half of it by those that the whole view leaves out, half
-/// by those that a leaf does.
-constexpr double budget = 0.5 / 255.0;
-constexpr double viewBudget = 0.5 * budget;
-constexpr double leafBudget = 0.5 * budget;
 constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
 constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
 
@@ -155,15 +150,18 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
         }
         return;
     }
-    const osg::BoundingBox box = frame.getEyeBounds(_unbounded);
+    chooseGridAxes(frame);
+    const osg::BoundingBoxd box = frame.getBounds(_toGrid, _unbounded);
     if (!box.valid() && !_unbounded)
         _unbounded = true;
     _boxMin = glm::dvec3(box.xMin(), box.yMin(), box.zMin());
     _boxMax = glm::dvec3(box.xMax(), box.yMax(), box.zMax());
     _unbounded = _unbounded || !std::isfinite(glm::length(_boxMax - _boxMin));
-    const glm::dvec3 center = 0.5 * (_boxMin + _boxMax);
+    const osg::Vec3d middle = osg::Matrixd::inverse(_toGrid).preMult(box.center());
+    const glm::dvec3 center(middle.x(), middle.y(), middle.z());
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
-    const double threshold = viewBudget / std::max<std::size_t>(1, all.size());
+    // Half of the tolerance is for what the whole view leaves out, half for what a leaf does.
+    const double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, all.size());
     for (const EyeLight& light : all)
     {
         if (!isUsable(light))
@@ -179,10 +177,31 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     _used.assign(_lights.size(), false);
     if (_lights.size() > maxListed && !_unbounded)
         for (unsigned int i = 0; i < 64; ++i)
-            _points.push_back(_boxMin + (_boxMax - _boxMin) *
-                                            glm::dvec3(radicalInverse(i + 1, 2),
-                                                       radicalInverse(i + 1, 3),
-                                                       radicalInverse(i + 1, 5)));
+        {
+            const glm::dvec3 p =
+                _boxMin + (_boxMax - _boxMin) * glm::dvec3(radicalInverse(i + 1, 2),
+                                                           radicalInverse(i + 1, 3),
+                                                           radicalInverse(i + 1, 5));
+            const osg::Vec3d eye = osg::Matrixd::inverse(_toGrid).preMult(osg::Vec3d(p.x, p.y, p.z));
+            _points.emplace_back(eye.x(), eye.y(), eye.z());
+        }
+}
+
+void LitPass::chooseGridAxes(const osgMultiRender::SurfaceFrame& frame)
+{
+    auto& stage = const_cast<osgUtil::RenderStage&>(frame.getStage());
+    if (!stage.getInitialViewMatrix())
+        return;
+    // A view matrix may scale; only its rotation counts.
+    const osg::Quat rotation = stage.getInitialViewMatrix()->getRotate();
+    if (std::isfinite(rotation.length2()) && rotation.length2() > 0.0)
+        _toGrid.makeRotate(rotation.inverse());
+}
+
+glm::dvec3 LitPass::toGrid(const glm::dvec3& eye) const
+{
+    const osg::Vec3d p = osg::Vec3d(eye.x, eye.y, eye.z) * _toGrid;
+    return {p.x(), p.y(), p.z()};
 }
 
 bool LitPass::isUsable(const EyeLight& light)
@@ -203,13 +222,13 @@ bool LitPass::isUsable(const EyeLight& light)
 
 void LitPass::fillReach(LightSet& set) const
 {
-    double threshold = leafBudget / std::max<std::size_t>(1, set.lights.size());
+    double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, set.lights.size());
     if (set.lights.size() > maxListed)
     {
         std::vector<EyeLight> lights;
         for (std::uint32_t light : set.lights)
             lights.push_back(_lights[light]);
-        threshold = thresholdFor(lights, _points, leafBudget);
+        threshold = thresholdFor(lights, _points, 0.5 * _scene.getLightTolerance());
     }
     set.reach.assign(_lights.size(), 0.0);
     for (std::uint32_t light : set.lights)
@@ -239,7 +258,13 @@ LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
 
 void LitPass::makeGrid(LightSet& set)
 {
-    set.grid.emplace(_lights, set.reach, set.lights, _boxMin, _boxMax);
+    std::vector<EyeLight> lights = _lights;
+    for (EyeLight& light : lights)
+    {
+        light.position = toGrid(light.position);
+        light.spotDirection = toGrid(light.spotDirection);
+    }
+    set.grid.emplace(lights, set.reach, set.lights, _boxMin, _boxMax);
     List list;
     list.lights = set.grid->getEverywhere();
     list.grid = &set;
@@ -428,6 +453,7 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     // osg::Program trims "[0]" off the names of arrays.
     static const unsigned int uniforms = osg::Uniform::getNameID("osgsv_light");
     static const unsigned int range = osg::Uniform::getNameID("osgsv_range");
+    static const unsigned int axes = osg::Uniform::getNameID("osgsv_gridAxes");
     static const unsigned int origin = osg::Uniform::getNameID("osgsv_gridOrigin");
     static const unsigned int scale = osg::Uniform::getNameID("osgsv_gridScale");
     static const unsigned int size = osg::Uniform::getNameID("osgsv_gridSize");
@@ -449,6 +475,11 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     const LightGrid& grid = *list.grid->grid;
     const glm::dvec3 o = grid.getOrigin(), c = grid.getCellSize();
     const glm::ivec3 n = grid.getSize();
+    float columns[9];
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            columns[3 * column + row] = float(_toGrid(column, row)); // osg's rows are GLSL's columns
+    gl->glUniformMatrix3fv(program.getUniformLocation(axes), 1, GL_FALSE, columns);
     gl->glUniform3f(program.getUniformLocation(origin), float(o.x), float(o.y), float(o.z));
     gl->glUniform3f(program.getUniformLocation(scale), float(1.0 / c.x), float(1.0 / c.y),
                     float(1.0 / c.z));

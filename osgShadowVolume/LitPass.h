@@ -60,6 +60,8 @@ private:
     /// False, and the light is listed as dropped, where nothing can be computed with it.
     bool isUsable(const EyeLight& light);
     LightSet& setOf(const osgMultiRender::SurfaceState& state);
+    void chooseGridAxes(const osgMultiRender::SurfaceFrame& frame);
+    glm::dvec3 toGrid(const glm::dvec3& eye) const;
     void fillReach(LightSet& set) const;
     void makeGrid(LightSet& set);
     std::uint32_t listOf(std::vector<std::uint32_t> lights);
@@ -72,7 +74,10 @@ private:
     std::vector<bool> _used;
     std::vector<Dropped> _dropped;
     std::vector<glm::dvec3> _points; ///< Samples of what is in view.
-    glm::dvec3 _boxMin{0.0}, _boxMax{0.0};
+    /// From eye coordinates to axes along those of the world, where floors and walls are flat, so
+    /// that a grid spends no cells on a tilted box's empty corners. A rotation; the origin is the eye.
+    osg::Matrixd _toGrid;
+    glm::dvec3 _boxMin{0.0}, _boxMax{0.0}; ///< Of what is in view, along these axes.
     bool _unbounded = false;
     std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;

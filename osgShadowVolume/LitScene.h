@@ -44,6 +44,12 @@ public:
     void setLightScope(LightScope scope) { _lightScope = scope; }
     LightScope getLightScope() const { return _lightScope; }
 
+    /// The most that all lights which are left out because of their distance may add to a channel of a
+    /// pixel, 1 being full scale. By default 0.5 / 255, half a step of 8 bits; 0 leaves out nothing, more
+    /// trades error for time where lights are many. Materials count as white.
+    void setLightTolerance(double tolerance) { _lightTolerance = tolerance; }
+    double getLightTolerance() const { return _lightTolerance; }
+
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
@@ -54,6 +60,7 @@ protected:
 private:
     Lighting _lighting = Lighting::PIXEL;
     LightScope _lightScope = LightScope::MODES;
+    double _lightTolerance = 0.5 / 255.0;
     class LightTextures;
     std::unique_ptr<LightTextures> _textures;
     friend class LitPass;

@@ -15,6 +15,7 @@ class EglBackend final : public osgHeadless::Backend
 {
 public:
     const char* getName() const override { return "EGL"; }
+    const char* getPluginName() const override { return "osgdb_egl"; }
     const osgHeadless::Limits* getLimits(std::string& error) override;
     std::unique_ptr<osgHeadless::Surface> createSurface(const osg::GraphicsContext::Traits& traits,
                                                         osgHeadless::Surface* shared,

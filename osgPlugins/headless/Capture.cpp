@@ -64,8 +64,8 @@ std::string Capture::getFileName(const std::string& pattern, unsigned int number
     {
         return pattern;
     }
-    return osgDB::getNameLessExtension(pattern) + "_" + text + "." +
-           osgDB::getFileExtension(pattern);
+    const std::string extension = osgDB::getFileExtensionIncludingDot(pattern);
+    return pattern.substr(0, pattern.size() - extension.size()) + "_" + text + extension;
 }
 
 Capture::Capture(const std::string& pattern)

@@ -4,6 +4,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -26,9 +27,20 @@ void keepLibraryMapped()
                    });
 }
 
+namespace
+{
+std::atomic<bool> failed{false};
+}
+
+bool willExitWithFailure()
+{
+    return failed;
+}
+
 void exitWithFailure()
 {
     static std::once_flag once;
+    failed = true;
     std::call_once(once,
                    []
                    {

@@ -15,4 +15,7 @@ void keepLibraryMapped();
 /// handlers that were registered before the first call are skipped.
 void exitWithFailure();
 
+/// Whether exitWithFailure() was called.
+bool willExitWithFailure();
+
 } // namespace osgHeadless

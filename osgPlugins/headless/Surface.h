@@ -63,6 +63,9 @@ public:
     /// The name of the windowing system, as Traits::windowingSystemPreference gives it.
     virtual const char* getName() const = 0;
 
+    /// The plugin's name, which heads its messages: "osgdb_egl".
+    virtual const char* getPluginName() const = 0;
+
     /// The driver's limits, or null with cause and remedy in `error` when there is no driver.
     virtual const Limits* getLimits(std::string& error) = 0;
 

@@ -35,8 +35,9 @@ Window::Window(osg::GraphicsContext::Traits& traits, Backend& backend,
     }
     getEventQueue()->syncWindowRectangleWithGraphicsContext();
 
-    const std::string file = traits.pbuffer ? std::string() : Capture::getRequestedFile();
-    if (!file.empty())
+    const std::string file = Capture::getRequestedFile();
+    // osgviewer opens its default window when the one asked for fails: that is the wrong picture.
+    if (!file.empty() && !traits.pbuffer && !willExitWithFailure())
     {
         _capture = std::make_unique<Capture>(file);
     }
@@ -51,7 +52,8 @@ bool Window::realizeImplementation()
 {
     if (!_surface)
     {
-        OSG_WARN << _backend.getName() << ": a closed window cannot be realized; make a new one\n";
+        OSG_WARN << _backend.getPluginName()
+                 << ": a closed window cannot be realized; make a new one" << std::endl;
         return false;
     }
     drawToFramebufferObject();
@@ -67,7 +69,7 @@ void Window::closeImplementation()
         std::string error;
         if (_surface && !_capture->write(error))
         {
-            OSG_WARN << _backend.getName() << ": " << error << "\n";
+            OSG_WARN << _backend.getPluginName() << ": " << error << std::endl;
             exitWithFailure();
         }
         _capture.reset();
@@ -137,9 +139,9 @@ bool Window::setWindowRectangleImplementation(int, int, int width, int height)
     if (!limits || width <= 0 || height <= 0 || width > limits->maxWidth ||
         height > limits->maxHeight)
     {
-        OSG_WARN << _backend.getName() << ": a window cannot be resized to " << width << "x"
+        OSG_WARN << _backend.getPluginName() << ": a window cannot be resized to " << width << "x"
                  << height << "; the size stays " << _traits->width << "x" << _traits->height
-                 << "\n";
+                 << std::endl;
         return false;
     }
     std::lock_guard<std::mutex> lock(_sizeMutex);
@@ -190,8 +192,9 @@ void Window::applySize()
         _size = *wanted;
         return;
     }
-    OSG_WARN << _backend.getName() << ": no memory for a window of " << wanted->width << "x"
-             << wanted->height << "; pictures stay " << _size.width << "x" << _size.height << "\n";
+    OSG_WARN << _backend.getPluginName() << ": no memory for a window of " << wanted->width << "x"
+             << wanted->height << "; pictures stay " << _size.width << "x" << _size.height
+             << std::endl;
     if (_capture)
     {
         exitWithFailure();

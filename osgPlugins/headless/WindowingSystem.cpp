@@ -2,9 +2,10 @@
 #include "WindowingSystem.h"
 
 #include "ExitStatus.h"
+#include "Report.h"
 #include "Window.h"
 
-#include <osg/Notify>
+#include <osgDB/Registry>
 
 #include <algorithm>
 #include <cstdlib>
@@ -95,7 +96,7 @@ void WindowingSystem::enumerateScreenSettings(const osg::GraphicsContext::Screen
 
 osg::GraphicsContext* WindowingSystem::createGraphicsContext(osg::GraphicsContext::Traits* traits)
 {
-    if (!traits)
+    if (!traits || (traits->pbuffer && traits->target))
     {
         return nullptr;
     }
@@ -103,7 +104,7 @@ osg::GraphicsContext* WindowingSystem::createGraphicsContext(osg::GraphicsContex
     osg::ref_ptr<osg::GraphicsContext> context = create(*traits, error);
     if (!context)
     {
-        OSG_WARN << getName() << ": " << error << "\n";
+        reportOnce(_backend, error);
         if (!traits->pbuffer && !Capture::getRequestedFile().empty())
         {
             exitWithFailure();
@@ -149,15 +150,21 @@ osg::ref_ptr<osg::GraphicsContext> WindowingSystem::create(osg::GraphicsContext:
     return new Window(traits, _backend, std::move(surface));
 }
 
-Registration::Registration(Backend& backend) : _system(new WindowingSystem(backend))
+Registration::Registration(Backend& backend)
+    : _system(new WindowingSystem(backend)), _coin(new CoinContext(backend))
 {
+    osgDB::Registry::instance()->addReaderWriter(_coin);
     auto& list = osg::GraphicsContext::getWindowingSystemInterfaces()->getInterfaces();
     list.insert(list.begin(), _system);
 }
 
 Registration::~Registration()
 {
-    // Null when OSG's own singletons went first.
+    // Both are null when OSG's own singletons went first.
+    if (auto* registry = osgDB::Registry::instance())
+    {
+        registry->removeReaderWriter(_coin);
+    }
     if (const auto& systems = osg::GraphicsContext::getWindowingSystemInterfaces(); systems.valid())
     {
         systems->removeWindowingSystemInterface(_system);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "CoinContext.h"
 #include "Surface.h"
 
 #include <vector>
@@ -22,8 +23,10 @@ public:
     void enumerateScreenSettings(const osg::GraphicsContext::ScreenIdentifier& screen,
                                  osg::GraphicsContext::ScreenSettingsList& list) override;
 
-    /// Returns a Window, or null after one line with cause and remedy. With OSG_HEADLESS_CAPTURE
-    /// set, a window (not a pixel buffer) that fails also makes the process end with EXIT_FAILURE.
+    /// Returns a Window, or null after one line with cause and remedy (each line once). Null
+    /// without a line for a pixel buffer that is to be bound as texture: OSG then copies instead.
+    /// With OSG_HEADLESS_CAPTURE set, a window (not a pixel buffer) that fails also makes the
+    /// process end with EXIT_FAILURE, and windows that open after it write no picture.
     osg::GraphicsContext* createGraphicsContext(osg::GraphicsContext::Traits* traits) override;
 
 protected:
@@ -43,7 +46,10 @@ private:
     std::string _screenError; // of OSG_HEADLESS_SCREEN; the first window reports it
 };
 
-/// Puts a windowing system first in OSG's list while it lives: the list is asked in order.
+/// Puts a windowing system first in OSG's list, which is asked in order, and gives Coin contexts.
+///
+/// A plugin's static object: taken out again when the plugin is unloaded, or at exit before OSG's
+/// own objects go.
 class Registration
 {
 public:
@@ -52,6 +58,7 @@ public:
 
 private:
     osg::ref_ptr<WindowingSystem> _system;
+    osg::ref_ptr<CoinContext> _coin;
 };
 
 } // namespace osgHeadless

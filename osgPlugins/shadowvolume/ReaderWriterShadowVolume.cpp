@@ -4,6 +4,8 @@
 
 #include <osgDB/Registry>
 
+#include <cstdlib>
+
 /// "model.iv.shadowvolume": lights the model per pixel.
 class ReaderWriterShadowVolume : public osgMultiRender::PseudoLoader
 {
@@ -18,6 +20,9 @@ public:
         supportsOption("shadowvolume.lights=modes|all",
                        "Which LightSources light a drawable: those whose GL_LIGHTn mode is on there "
                        "(the default, as in OSG), or all of the view");
+        supportsOption("shadowvolume.tolerance=<0..1>",
+                       "The most that all lights left out because of their distance may add to a "
+                       "pixel (0.00196, half a step of 8 bits)");
     }
 
     const char* className() const override { return "osgShadowVolume pseudo-loader"; }
@@ -37,6 +42,13 @@ protected:
     }
 
 private:
+    static bool parse(const std::string& text, double& value)
+    {
+        char* end = nullptr;
+        value = std::strtod(text.c_str(), &end);
+        return !text.empty() && !*end && value >= 0.0 && value <= 1.0;
+    }
+
     static bool set(osgShadowVolume::LitScene& scene, const std::string& key,
                     const std::string& value, std::string& error)
     {
@@ -53,11 +65,13 @@ private:
             scene.setLightScope(LitScene::LightScope::MODES);
         else if (key == "lights" && value == "all")
             scene.setLightScope(LitScene::LightScope::ALL);
+        else if (double tolerance = 0.0; key == "tolerance" && parse(value, tolerance))
+            scene.setLightTolerance(tolerance);
         else
         {
             error = "setting '" + key + "=" + value +
-                    "' is not known; there are shadows=off, lighting=pixel|vertex|off and "
-                    "lights=modes|all";
+                    "' is not known; there are shadows=off, lighting=pixel|vertex|off, "
+                    "lights=modes|all and tolerance=<0..1>";
             return false;
         }
         return true;

@@ -77,6 +77,7 @@ void osgsv_addList(ivec2 range, osgmr_Lit surface, inout vec3 ambient, inout vec
 }
 
 #ifdef OSGSV_GRID
+uniform mat3 osgsv_gridAxes;    // from eye coordinates
 uniform vec3 osgsv_gridOrigin;
 uniform vec3 osgsv_gridScale; // cells per unit
 uniform ivec3 osgsv_gridSize;
@@ -87,8 +88,9 @@ void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse, 
 {
     osgsv_addList(osgsv_range, surface, ambient, diffuse, specular);
 #ifdef OSGSV_GRID
-    ivec3 cell = ivec3(clamp((surface.position - osgsv_gridOrigin) * osgsv_gridScale, vec3(0.0),
-                             vec3(osgsv_gridSize - 1)));
+    ivec3 cell = ivec3(clamp((osgsv_gridAxes * surface.position - osgsv_gridOrigin) *
+                                 osgsv_gridScale,
+                             vec3(0.0), vec3(osgsv_gridSize - 1)));
     int at = osgsv_gridCells +
              2 * (cell.x + osgsv_gridSize.x * (cell.y + osgsv_gridSize.y * cell.z));
     osgsv_addList(ivec2(osgsv_list(at), osgsv_list(at + 1)), surface, ambient, diffuse, specular);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as GLSL: the tokens give them back, the model and the edits hold, nothing crashes.
-// The first byte picks the version that is raised to and the stage; a byte 0xFF splits the rest into
-// shader objects.
+// The first byte picks the version that is raised to and the stage; a byte 0xFF splits the rest
+// into shader objects.
 #include <osgMultiRender/GlslEdit.h>
 #include <osgMultiRender/GlslWrap.h>
 
@@ -102,8 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static constexpr int versions[] = {330, 400, 430, 450};
     GlslVersion target;
     target.number = versions[data[0] & 3];
-    target.profile =
-        data[0] & 4 ? GlslVersion::Profile::Core : GlslVersion::Profile::Compatibility;
+    target.profile = data[0] & 4 ? GlslVersion::Profile::Core : GlslVersion::Profile::Compatibility;
     std::vector<GlslShader> shaders(1);
     for (std::size_t i = 1; i < size; ++i)
     {

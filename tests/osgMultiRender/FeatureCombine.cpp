@@ -65,6 +65,7 @@ void addFunctions(Family& family)
                        [f = function](Combine& c)
                        {
                            c.setCombine_RGB(Combine::REPLACE);
+                           c.setSource0_RGB(Combine::PRIMARY_COLOR);
                            c.setCombine_Alpha(f);
                            c.setSource0_Alpha(Combine::PREVIOUS);
                            c.setSource1_Alpha(Combine::TEXTURE);
@@ -115,15 +116,17 @@ void addOperands(Family& family)
         {"OneMinusAlpha", Combine::ONE_MINUS_SRC_ALPHA}};
     for (const auto& [name, operand] : operands)
     {
-        family.add("operand0" + name,
-                   withCombine(
-                       [o = operand](Combine& c)
-                       {
-                           c.setCombine_RGB(Combine::MODULATE);
-                           c.setSource0_RGB(Combine::TEXTURE);
-                           c.setOperand0_RGB(o);
-                       }),
-                   colored());
+        FeatureScene& plain = family.add("operand0" + name,
+                                         withCombine(
+                                             [o = operand](Combine& c)
+                                             {
+                                                 c.setCombine_RGB(Combine::MODULATE);
+                                                 c.setSource0_RGB(Combine::TEXTURE);
+                                                 c.setOperand0_RGB(o);
+                                             }),
+                                         colored());
+        if (operand == Combine::SRC_COLOR)
+            plain.twin = "rgbModulate";
         family.add("operand2" + name,
                    withCombine(
                        [o = operand](Combine& c)

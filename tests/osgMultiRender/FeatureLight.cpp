@@ -18,6 +18,7 @@ using Change = std::function<void(osg::Light&)>;
 void addShine(osg::Group& root)
 {
     osg::ref_ptr<osg::Material> material = new osg::Material;
+    material->setAmbient(osg::Material::FRONT_AND_BACK, osg::Vec4(0.8f, 0.6f, 0.6f, 1));
     material->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0.6f, 0.6f, 0.6f, 1));
     material->setSpecular(osg::Material::FRONT_AND_BACK, osg::Vec4(0.8f, 0.8f, 0.8f, 1));
     material->setShininess(osg::Material::FRONT_AND_BACK, 18.0f);
@@ -42,12 +43,18 @@ void makePoint(osg::Light& l)
     l.setDiffuse(osg::Vec4(0.9f, 0.8f, 0.5f, 1.0f));
 }
 
-/// Points at a vertex of the backdrop, which a cone of one degree would miss otherwise.
+/// Points at a vertex of the backdrop, which a cone of one degree would miss otherwise; a wide
+/// one stands in the middle of the torus, so that some of it is behind.
 void makeSpot(osg::Light& l, float cutoff, float exponent)
 {
     makePoint(l);
-    const osg::Vec3 vertex(1.05f, 1.6f, 0.8f), eye(-0.5f, -1.8f, 0.6f);
-    l.setDirection(vertex - eye);
+    l.setAmbient(osg::Vec4(1, 0.6f, 0.3f, 1));
+    const bool wide = cutoff >= 90.0f;
+    // a cone of no width is aimed beside the vertex: on it, the last bit of a cosine would decide
+    const osg::Vec3 vertex(cutoff == 0.0f ? 0.95f : 1.05f, 1.6f, 0.8f);
+    const osg::Vec3 place = wide ? osg::Vec3(-0.2f, -0.4f, 0.1f) : osg::Vec3(-0.5f, -1.8f, 0.6f);
+    l.setPosition(osg::Vec4(place, 1.0f));
+    l.setDirection(vertex - place);
     l.setSpotCutoff(cutoff);
     l.setSpotExponent(exponent);
 }
@@ -108,12 +115,12 @@ void addSpots(Family& family)
             // one degree no power falls visibly except the highest
             if (cutoff == 0.0f && exponent > 0.0f)
                 scene.twin = "spot0Exponent0";
-            if (cutoff == 180.0f)
-                scene.twin = "point";
+            if (cutoff == 180.0f && exponent > 0.0f)
+                scene.twin = "spot180Exponent0";
             if (cutoff == 1.0f && exponent > 0.0f)
                 scene.twin = "spot1Exponent0";
             // beyond 20 degrees nothing is left of it
-            if (cutoff > 20.0f && cutoff < 180.0f && exponent == 128.0f)
+            if (cutoff == 45.0f && exponent == 128.0f)
                 scene.twin = "spot20Exponent128";
         }
     }

@@ -47,9 +47,12 @@ void addColorModes(Family& family)
             m.setEmission(Both, osg::Vec4(0.1f, 0.0f, 0.0f, 1));
             m.setShininess(Both, 12.0f);
         };
-        family.add("colorMode" + name + "PerVertex", withMaterial(change), colored);
+        const std::string plain = "colorModeOffWithoutColors";
+        family.add("colorMode" + name + "PerVertex", withMaterial(change), colored).twin =
+            mode == M::OFF ? plain : "";
+        // the material's own value takes the place of the color, its diffuse one that of both
         family.add("colorMode" + name + "WithoutColors", withMaterial(change)).twin =
-            mode == M::OFF ? "" : "colorModeOffWithoutColors";
+            mode == M::OFF || mode == M::AMBIENT_AND_DIFFUSE ? "" : plain;
     }
     colored.colors = Subject::Colors::Overall;
     family.add("colorModeDiffuseOverall", withMaterial([](M& m) { m.setColorMode(M::DIFFUSE); }),

@@ -49,21 +49,25 @@ Build nested(const std::function<void(const Levels&)>& change)
 void addInheritance(Family& family)
 {
     const osg::Vec3 red(0.9f, 0.1f, 0.2f), green(0.1f, 0.8f, 0.2f), blue(0.2f, 0.2f, 0.9f);
-    const auto materials = [=](unsigned int group, unsigned int geode)
+    const auto materials = [=](unsigned int group, unsigned int geode, unsigned int ring = On)
     {
         return nested(
             [=](const Levels& s)
             {
                 s.group.setAttributeAndModes(paint(red), group);
                 s.geode.setAttributeAndModes(paint(green), geode);
-                s.torus.setAttributeAndModes(paint(blue), On);
+                s.torus.setAttributeAndModes(paint(blue), ring);
             });
     };
     family.add("innermostWins", materials(On, On));
     family.add("overrideOfTheGroup", materials(On | Attribute::OVERRIDE, On));
     family.add("overrideOfTheGeode", materials(On, On | Attribute::OVERRIDE));
-    family.add("protectedUnderOverride",
-               materials(On | Attribute::OVERRIDE, On | Attribute::PROTECTED));
+    family
+        .add("protectedUnderOverride",
+             materials(On | Attribute::OVERRIDE, On | Attribute::PROTECTED))
+        .twin = "innermostWins"; // what is protected hands no override on
+    family.add("protectedTorusUnderOverride",
+               materials(On | Attribute::OVERRIDE, On, On | Attribute::PROTECTED));
     family
         .add("overrideAndProtected",
              materials(On | Attribute::OVERRIDE, On | Attribute::OVERRIDE | Attribute::PROTECTED))

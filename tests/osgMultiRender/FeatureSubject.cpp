@@ -104,12 +104,13 @@ osg::ref_ptr<osg::Geometry> torus(const Subject& subject)
     const unsigned int columns = 24, rows = 12;
     Grid grid(columns, rows, subject);
     const double around = subject.open ? osg::PI : 2.0 * osg::PI;
+    const double start = subject.open ? 0.75 * osg::PI : 0.3; // shows both sides to the camera
     for (unsigned int row = 0; row <= rows; ++row)
     {
         for (unsigned int column = 0; column <= columns; ++column)
         {
             const double s = double(column) / columns, t = double(row) / rows;
-            const double u = 2.0 * osg::PI * s, v = around * t + 0.3;
+            const double u = 2.0 * osg::PI * s, v = around * t + start;
             const osg::Vec3d ring(std::cos(u), 0.3 * std::sin(u), std::sin(u));
             const osg::Vec3d axis(0.0, -1.0, 0.3);
             osg::Vec3d normal = ring * std::cos(v) + axis * std::sin(v);

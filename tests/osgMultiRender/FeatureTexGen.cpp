@@ -59,16 +59,18 @@ Build generating(unsigned int unit, Mode mode, const std::vector<GLenum>& modes)
     return [=](osg::Group& root) { generate(root, unit, mode, modes); };
 }
 
-/// Turns and moves the subject under the generated coordinates.
+/// Turns and moves the torus alone. OSG gives GL the eye planes under the matrix of the drawable
+/// that it applies the TexGen for, so that eye-linear is object-linear for the first one drawn.
 Build turned(const Build& build)
 {
     return [build](osg::Group& root)
     {
-        osg::ref_ptr<osg::Node> subject = root.getChild(0);
         osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(
             osg::Matrix::rotate(0.4, osg::Vec3d(0, 0, 1)) * osg::Matrix::translate(0.1, 0.2, 0.1));
-        transform->addChild(subject);
-        root.setChild(0, transform);
+        osg::Geode* subject = root.getChild(0)->asGeode();
+        transform->addChild(subject->getDrawable(1));
+        subject->removeDrawables(1);
+        root.addChild(transform);
         build(root);
     };
 }
@@ -76,7 +78,7 @@ Build turned(const Build& build)
 void addModes(Family& family)
 {
     family.add("objectLinear", generating(0, osg::TexGen::OBJECT_LINEAR, ST));
-    family.add("eyeLinear", generating(0, osg::TexGen::EYE_LINEAR, ST));
+    family.add("eyeLinear", generating(0, osg::TexGen::EYE_LINEAR, ST)).twin = "objectLinear";
     family.add("sphereMap", generating(0, osg::TexGen::SPHERE_MAP, ST));
     family.add("normalMap", generating(0, osg::TexGen::NORMAL_MAP, STR));
     family.add("reflectionMap", generating(0, osg::TexGen::REFLECTION_MAP, STR));
@@ -84,7 +86,8 @@ void addModes(Family& family)
     family.add("eyeLinearTurned", turned(generating(0, osg::TexGen::EYE_LINEAR, ST)));
     family.add("sphereMapTurned", turned(generating(0, osg::TexGen::SPHERE_MAP, ST)));
     family.add("objectLinearProjective", generating(0, osg::TexGen::OBJECT_LINEAR, STRQ));
-    family.add("eyeLinearProjective", generating(0, osg::TexGen::EYE_LINEAR, STRQ));
+    family.add("eyeLinearProjective", generating(0, osg::TexGen::EYE_LINEAR, STRQ)).twin =
+        "objectLinearProjective";
     family.add("objectLinearSAlone", generating(0, osg::TexGen::OBJECT_LINEAR, {GL_TEXTURE_GEN_S}));
     family.add("eyeLinearTAlone", generating(0, osg::TexGen::EYE_LINEAR, {GL_TEXTURE_GEN_T}));
     family.add("sphereMapSAlone", generating(0, osg::TexGen::SPHERE_MAP, {GL_TEXTURE_GEN_S}));

@@ -218,6 +218,7 @@ void addSampling(Family& family)
                  texture->setFilter(T::MIN_FILTER, T::NEAREST);
                  texture->setFilter(T::MAG_FILTER, T::NEAREST);
                  setTexture(root, 0, texture);
+                 setMatrix(root, 0, osg::Matrix::scale(1, 1, 0.4));
              })
         .beyond = true;
 }

@@ -103,13 +103,15 @@ void addNormals(Family& family)
             state->setAttributeAndModes(material);
             state->setMode(GL_NORMALIZE, mode == GL_NORMALIZE ? On : Off);
             state->setMode(GL_RESCALE_NORMAL, mode == GL_RESCALE_NORMAL ? On : Off);
-            addLight(root, light(1));
+            const osg::ref_ptr<osg::Light> bright = light(1);
+            bright->setAmbient(osg::Vec4(0.5f, 0.7f, 0.9f, 1));
+            addLight(root, bright);
         };
     };
     const osg::Matrix same, twice = osg::Matrix::scale(0.7, 0.7, 0.7),
                             uneven = osg::Matrix::scale(1.2, 0.6, 0.8),
                             mirrored = osg::Matrix::scale(-1, 1, 0.9);
-    const Subject unit, unevenNormals = with(Subject::Colors::None, Normals::Uneven);
+    const Subject unevenNormals = with(Subject::Colors::None, Normals::Uneven);
     family.add("unit", modes(GL_NONE, same));
     family.add("scaled", modes(GL_NONE, twice));
     family.add("scaledNormalize", modes(GL_NORMALIZE, twice));

@@ -46,12 +46,19 @@ void main()
 varying vec2 uv;
 void main() { gl_FragColor = vec4(uv, 1.0, 1.0); gl_FragDepth = uv.x; }
 )"}},
-        {"FragDataConstantIndices", {R"(#version 120
+        {"FragDataConstantIndices",
+         {R"(#version 120
 varying vec2 uv;
-void main() { gl_FragData[0] = vec4(uv, 0.0, 1.0); gl_FragData[2] = vec4(0.0, uv, 1.0); }
+void main()
+{
+    gl_FragData[0] = vec4(uv, 0.0, 1.0);
+    gl_FragData[2] = vec4(0.0, uv, 1.0);
+    gl_FragData [ 1 ] = vec4(uv.yx, 1.0, 1.0);
+}
 )"},
          3},
-        {"FragDataDynamicIndex", {R"(#version 120
+        {"FragDataDynamicIndex",
+         {R"(#version 120
 varying vec2 uv;
 void main()
 {
@@ -60,7 +67,8 @@ void main()
 }
 )"},
          4},
-        {"FragDataThroughMacro", {R"(#version 120
+        {"FragDataThroughMacro",
+         {R"(#version 120
 #define TARGET(n) gl_FragData[n]
 varying vec2 uv;
 void main() { TARGET(0) = vec4(uv, 0.0, 1.0); TARGET(1) = vec4(1.0 - uv, 0.0, 1.0); }
@@ -83,20 +91,25 @@ in vec2 uv;
 out vec4 color;
 void main() { color = vec4(uv, 0.0, 1.0); }
 )"}},
-        {"LayoutLocation", {R"(#version 330 core
+        {"LayoutLocation",
+         {R"(#version 330 core
 in vec2 uv;
 layout(location = 1) out vec4 second;
 layout(location = 0) out vec4 first;
 void main() { first = vec4(uv, 0.0, 1.0); second = vec4(0.0, uv, 1.0); }
 )"},
          2},
-        {"BoundByApplication", {R"(#version 150
+        {"BoundByApplication",
+         {R"(#version 150
 in vec2 uv;
 out vec4 albedo, glow;
 void main() { albedo = vec4(uv, 0.0, 1.0); glow = vec4(1.0 - uv, 1.0, 1.0); }
 )"},
-         2, false, {{"albedo", 1}, {"glow", 0}}},
-        {"CommaListWithLayout", {R"(#version 330
+         2,
+         false,
+         {{"albedo", 1}, {"glow", 0}}},
+        {"CommaListWithLayout",
+         {R"(#version 330
 in vec2 uv;
 layout(location = 0) out highp /* why not */ vec3 color;
 layout(location = 1)
@@ -105,26 +118,30 @@ layout(location = 1)
 void main() { color = vec3(uv, 1.0); one = uv.x; }
 )"},
          2},
-        {"ArrayOfOutputs", {R"(#version 330
+        {"ArrayOfOutputs",
+         {R"(#version 330
 const int Count = 3;
 in vec2 uv;
 layout(location = 0) out vec4 colors[Count];
 void main() { for (int i = 0; i < 3; ++i) colors[i] = vec4(uv, float(i) * 0.25, 1.0); }
 )"},
          3},
-        {"ArrayTypeOfOutputs", {R"(#version 430 core
+        {"ArrayTypeOfOutputs",
+         {R"(#version 440 core
 #define COUNT (1 + 1)
 in vec2 uv;
 layout(location = 1 - 1) out vec4[COUNT] colors;
 void main() { colors[0] = vec4(uv, 0.0, 1.0); colors[1] = vec4(uv.yx, 0.0, 1.0); }
 )"},
          2},
-        {"UnsignedOutput", {R"(#version 130
+        {"UnsignedOutput",
+         {R"(#version 130
 in vec2 uv;
 out uvec4 value;
 void main() { value = uvec4(uint(uv.x * 255.0), uint(uv.y * 255.0), 7u, 255u); }
 )"},
-         1, true},
+         1,
+         true},
         {"ShadowingLocals", {R"(#version 330
 in vec2 uv;
 layout(location = 0) out vec4 color;
@@ -140,23 +157,25 @@ void main()
     color.a = 1.0;
 }
 )"}},
-        {"TwoShaderObjects", {R"(#version 120
+        {"TwoShaderObjects",
+         {R"(#version 120
 void paint(vec2 at);
 varying vec2 uv;
 void main() { paint(uv); }
 )",
-                              R"(#version 120
+          R"(#version 120
 void paint(vec2 at) { gl_FragColor = vec4(at, 1.0, 1.0); }
 )"}},
-        {"ThreeObjectsMixedVersions", {R"(vec3 tint(vec2 at);
+        {"ThreeObjectsMixedVersions",
+         {R"(vec3 tint(vec2 at);
 varying vec2 uv;
 void main() { gl_FragColor = vec4(tint(uv), 1.0); }
 )",
-                                       R"(#version 130
+          R"(#version 130
 float wave(float x);
 vec3 tint(vec2 at) { return vec3(at, wave(at.x)); }
 )",
-                                       R"(#version 120
+          R"(#version 120
 float wave(float x) { return 0.5 + 0.5 * sin(20.0 * x); }
 )"}},
         {"NewerKeywordsAsNames", {R"(#version 110
@@ -251,11 +270,6 @@ void main() { gl_FragColor = vec4(0.5 + 0.5 * sin(uv.x * PI * 4.0), uv.y, 0.0, 1
 varying vec2 uv;
 void main() { gl_FragColor = gl_Color * vec4(uv, 1.0, 1.0) + gl_FrontMaterial.ambient * 0.1; }
 )"}},
-        {"InvariantOutput", {R"(#version 120
-varying vec2 uv;
-invariant gl_FragColor;
-void main() { gl_FragColor = vec4(uv, 0.375, 1.0); }
-)"}},
         {"QualifierMacros", {R"(#version 140
 #define FRAGMENT_IN in
 #define FRAGMENT_OUT out
@@ -267,7 +281,8 @@ void main() { color = vec4(uv, 0.625, 1.0); }
         {"CarriageReturns",
          {"#version 120\r\nvarying vec2 uv; // here\r\nvoid main()\r\n{\r\n"
           "    gl_FragColor = vec4(uv, \\\r\n 0.1, 1.0);\r\n}\r\n"}},
-        {"NoLineEndAtTheEnd", {"varying vec2 uv; void main() { gl_FragColor = vec4(uv, 0., 1.); }"}},
+        {"NoLineEndAtTheEnd",
+         {"varying vec2 uv; void main() { gl_FragColor = vec4(uv, 0., 1.); }"}},
     };
     return samples;
 }

@@ -3,8 +3,8 @@
 //
 //   osgShadowVolume.SurfaceBenchmark [--size WxH] [--rounds N] [--csv file] [model ...]
 //
-// Each model is drawn as stock OSG, with lighting=vertex and with lighting=pixel in turns; printed are
-// medians over the rounds and the median of the ratios of each round.
+// Each model is drawn as stock OSG, with lighting=vertex and with lighting=pixel in turns; printed
+// are medians over the rounds and the median of the ratios of each round.
 #include <osgShadowVolume/LitScene.h>
 
 #include <support/HeadlessViewer.h>
@@ -112,8 +112,9 @@ int main(int argc, char** argv)
         return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
     std::FILE* csv = csvName.empty() ? nullptr : std::fopen(csvName.c_str(), "w");
     if (csv)
-        std::fprintf(csv, "model,fixed_ms,vertex_ms,vertex_ratio,pixel_ms,pixel_ratio,drawables,states,"
-                          "variants,vertex_compile_ms,pixel_compile_ms\n");
+        std::fprintf(csv,
+                     "model,fixed_ms,vertex_ms,vertex_ratio,pixel_ms,pixel_ratio,drawables,states,"
+                     "variants,vertex_compile_ms,pixel_compile_ms\n");
     std::vector<double> vertexRatios, pixelRatios;
     double sum[NumMethods] = {};
     for (const std::string& name : models)
@@ -125,11 +126,12 @@ int main(int argc, char** argv)
         auto& counts = r.plans[Vertex].counts;
         const double vertexCompile = counts["programs.compileMilliseconds"];
         const double pixelCompile = r.plans[Pixel].counts["programs.compileMilliseconds"];
-        std::printf("%-24s fixed %7.2f ms  vertex %7.2f (x%.3f)  pixel %7.2f (x%.3f)  drawables %4.0f "
-                    "states %4.0f variants %2.0f\n",
-                    osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed],
-                    r.milliseconds[Vertex], r.ratio[Vertex], r.milliseconds[Pixel], r.ratio[Pixel],
-                    counts["drawCalls"], counts["states"], counts["variants"]);
+        std::printf(
+            "%-24s fixed %7.2f ms  vertex %7.2f (x%.3f)  pixel %7.2f (x%.3f)  drawables %4.0f "
+            "states %4.0f variants %2.0f\n",
+            osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed], r.milliseconds[Vertex],
+            r.ratio[Vertex], r.milliseconds[Pixel], r.ratio[Pixel], counts["drawCalls"],
+            counts["states"], counts["variants"]);
         if (csv)
             std::fprintf(csv, "%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.2f,%.2f\n",
                          osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed],
@@ -142,11 +144,12 @@ int main(int argc, char** argv)
             sum[method] += r.milliseconds[method];
         std::fflush(stdout);
     }
-    std::printf("%zu models: vertex median x%.3f, worst x%.3f, of sums x%.3f; pixel median x%.3f, of sums "
-                "x%.3f\n",
-                vertexRatios.size(), median(vertexRatios),
-                vertexRatios.empty() ? 0.0 : *std::max_element(vertexRatios.begin(), vertexRatios.end()),
-                sum[Vertex] / sum[Fixed], median(pixelRatios), sum[Pixel] / sum[Fixed]);
+    std::printf(
+        "%zu models: vertex median x%.3f, worst x%.3f, of sums x%.3f; pixel median x%.3f, of sums "
+        "x%.3f\n",
+        vertexRatios.size(), median(vertexRatios),
+        vertexRatios.empty() ? 0.0 : *std::max_element(vertexRatios.begin(), vertexRatios.end()),
+        sum[Vertex] / sum[Fixed], median(pixelRatios), sum[Pixel] / sum[Fixed]);
     if (csv)
         std::fclose(csv);
     return 0;

@@ -71,6 +71,13 @@ public:
     /// Seconds that all following frames take as their simulation time; 0 at first.
     void setSimulationTime(double seconds);
 
+    /// Whether a GL error in a frame is a failure, as at first; for scenes that raise errors in
+    /// OSG.
+    void setFailOnGLErrors(bool fail);
+
+    /// Those of the frames of the last picture.
+    const std::vector<std::string>& getGLErrors() const;
+
     /// For what else a test needs: lights, the camera's StateSet, statistics.
     osgViewer::Viewer& getViewer();
 

@@ -28,4 +28,5 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_LitScene, new osgShadowVolume::LitScene,
         serializer->add("ALL", MyClass::LightScope::ALL);
         wrapper->addSerializer(serializer.get(), osgDB::BaseSerializer::RW_ENUM);
     }
+    ADD_DOUBLE_SERIALIZER(LightTolerance, 0.5 / 255.0);
 }

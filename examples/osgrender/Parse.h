@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+namespace osgrender
+{
+
+/// Reads a whole string as a finite number; false when something else is in it.
+inline bool parseNumber(const std::string& text, double& value)
+{
+    if (text.empty() || std::isspace(static_cast<unsigned char>(text[0])))
+        return false;
+    char* end = nullptr;
+    value = std::strtod(text.c_str(), &end);
+    return *end == '\0' && std::isfinite(value);
+}
+
+/// Reads a whole string as a whole number in [low, high].
+inline bool parseWhole(const std::string& text, long low, long high, long& value)
+{
+    double number = 0.0;
+    if (!parseNumber(text, number) || number != std::floor(number) || number < double(low) ||
+        number > double(high))
+        return false;
+    value = long(number);
+    return true;
+}
+
+/// Splits at each separator; "a;;b" has an empty part in the middle, "" is one empty part.
+inline std::vector<std::string> split(const std::string& text, char separator)
+{
+    std::vector<std::string> parts(1);
+    for (char c : text)
+    {
+        if (c == separator)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+} // namespace osgrender

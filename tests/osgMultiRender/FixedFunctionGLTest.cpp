@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// OpenGL's fixed function as the oracle: what LitScene draws with lighting=vertex is the picture
+// that plain OSG draws.
+#include "FeatureScenes.h"
+
+#include <osgShadowVolume/LitScene.h>
+
+#include <support/CompareImage.h>
+#include <support/HeadlessViewer.h>
+#include <support/InventorModels.h>
+#include <support/NotifyCapture.h>
+
+#include <osg/Geometry>
+#include <osg/NodeVisitor>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+using osgShadowVolume::LitScene;
+
+namespace
+{
+
+constexpr int Width = 160, Height = 120;
+
+support::HeadlessViewer& theViewer()
+{
+    static support::HeadlessViewer viewer({Width, Height});
+    return viewer;
+}
+
+/// Few pixels may differ by any amount: an edge, a texel or an alpha test that falls the other way
+/// by the last bit of a coordinate.
+constexpr support::CompareImage Oracle = {2.0 / 255.0, 0.001, 1.0};
+
+double count(const osgMultiRender::Plan& plan, const std::string& name)
+{
+    const auto found = plan.counts.find(name);
+    return found == plan.counts.end() ? 0.0 : found->second;
+}
+
+/// OSG draws with the fixed function, silently, where a program cannot be linked: then the
+/// comparison would hold for nothing.
+void expectPrograms(const LitScene& lit, const std::string& name, bool beyond)
+{
+    const std::vector<osgMultiRender::Plan> plans = lit.getPlans();
+    ASSERT_EQ(plans.size(), 1u) << name;
+    const osgMultiRender::Plan& plan = plans.front();
+    EXPECT_GT(count(plan, "variants") + count(plan, "leaves.fixedFunction"), 0.0) << name;
+    EXPECT_EQ(count(plan, "variants.failed"), 0.0) << name << "\n" << toString(plan);
+    if (beyond)
+        return;
+    EXPECT_GT(count(plan, "leaves.program"), 0.0) << name << "\n" << toString(plan);
+    EXPECT_EQ(count(plan, "leaves.fixedFunction"), 0.0) << name << "\n" << toString(plan);
+}
+
+void expectFixedFunctionPicture(osg::Node* node, const support::CameraSpec& camera,
+                                const std::string& name, bool beyond = false)
+{
+    osg::ref_ptr<LitScene> lit = new LitScene;
+    lit->setLighting(LitScene::Lighting::VERTEX);
+    lit->addChild(node);
+    // the lit one first: OSG frees the images of textures when it has drawn them
+    theViewer().setFailOnGLErrors(false);
+    const auto actual = theViewer().render(lit, camera, Width, Height, 2);
+    const std::vector<std::string> errors = theViewer().getGLErrors();
+    expectPrograms(*lit, name, beyond);
+    const auto expected = theViewer().render(node, camera, Width, Height, 2);
+    // OSG itself raises some, for instance for lights above 7; none may come on top
+    EXPECT_LE(errors.size(), theViewer().getGLErrors().size()) << name;
+    EXPECT_TRUE(Oracle(actual, expected, "fixedFunction." + name));
+}
+
+/// Makes colors that are none black. Where a model has fewer materials than its binding asks for
+/// (simple/indexedTriangleMesh.iv), osgdb_iv fills the array from memory that nobody wrote.
+class TameColors : public osg::NodeVisitor
+{
+public:
+    TameColors() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Geometry& geometry) override
+    {
+        auto* colors = dynamic_cast<osg::Vec4Array*>(geometry.getColorArray());
+        for (unsigned int i = 0; colors && i < colors->size(); ++i)
+        {
+            for (unsigned int c = 0; c < 4; ++c)
+            {
+                float& value = (*colors)[i][c];
+                if (!(value >= 0.0f && value <= 1.0f))
+                    value = 0.0f;
+            }
+        }
+    }
+};
+
+std::set<std::string> families()
+{
+    std::set<std::string> names;
+    for (const FeatureScene& scene : featureScenes())
+        names.insert(scene.family);
+    return names;
+}
+
+/// "chess/king.iv" as "chess_king", which GoogleTest takes for a name.
+std::string caseName(const std::string& path)
+{
+    const std::string folder = support::inventorModel("");
+    std::string name = path.substr(folder.size(), path.size() - folder.size() - 3);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+    return name;
+}
+
+class FeatureFamily : public testing::TestWithParam<std::string>
+{
+};
+
+class InventorModel : public testing::TestWithParam<std::string>
+{
+};
+
+} // namespace
+
+TEST_P(FeatureFamily, hasThePictureOfTheFixedFunction)
+{
+    OSGKITS_NEED_GL(theViewer());
+    const support::CameraSpec camera = {featureView(), featureProjection(double(Width) / Height)};
+    for (const FeatureScene& scene : featureScenes())
+    {
+        if (scene.family != GetParam())
+            continue;
+        SCOPED_TRACE(scene.name);
+        support::NotifyCapture notify;
+        expectFixedFunctionPicture(scene.create(), camera, scene.family + "." + scene.name,
+                                   scene.beyond);
+    }
+}
+
+TEST_P(InventorModel, hasThePictureOfTheFixedFunction)
+{
+    OSGKITS_NEED_GL(theViewer());
+    const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(GetParam());
+    ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
+    support::NotifyCapture notify;
+    TameColors tame;
+    model->accept(tame);
+    const auto camera = support::CameraSpec::overview(*model, double(Width) / Height);
+    expectFixedFunctionPicture(model, camera, caseName(GetParam()));
+}
+
+TEST(InventorModels, areInstalled)
+{
+    EXPECT_GE(support::inventorModels().size(), 90u) << "install Debian's inventor-data";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, FeatureFamily, testing::ValuesIn(families()),
+                         [](const auto& family) { return family.param; });
+INSTANTIATE_TEST_SUITE_P(Models, InventorModel, testing::ValuesIn(support::inventorModels()),
+                         [](const auto& model) { return caseName(model.param); });
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(InventorModel);
