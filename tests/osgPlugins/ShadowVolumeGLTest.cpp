@@ -180,7 +180,7 @@ TEST_F(ShadowVolumePlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
         run({"osgconv", _king + ".(lihgting=off).shadowvolume", _folder.file("x.osgt")});
     const std::string text = result.output + result.errors;
     EXPECT_NE(text.find("setting 'lihgting=off' is not known; there are shadows=off, "
-                        "lighting=pixel|vertex|off and lights=modes|all"),
+                        "lighting=pixel|vertex|off, lights=modes|all"),
               std::string::npos)
         << text;
     EXPECT_NE(result.exitCode, 0);
