@@ -72,9 +72,12 @@ void expectFinitePixels(const lit::Build& build, const support::CameraSpec& came
 {
     osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::PIXEL);
     const osg::ref_ptr<osg::Node> scene = build(*kit);
-    lit::viewer().getViewer().getCamera()->getGraphicsContext()->makeCurrent();
+    // OSG sets a camera's float target up once: pictures of both kinds need a viewer each.
+    support::HeadlessViewer viewer({lit::Width, lit::Height});
+    ASSERT_TRUE(viewer.isValid()) << viewer.getError();
+    viewer.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
     const osg::ref_ptr<osg::Image> image =
-        lit::viewer().renderFloat(scene, camera, lit::Width, lit::Height, 2);
+        viewer.renderFloat(scene, camera, lit::Width, lit::Height);
     ASSERT_TRUE(image.valid());
     const float* values = reinterpret_cast<const float*>(image->data());
     unsigned int bad = 0;
@@ -200,7 +203,6 @@ TEST_F(Extreme, verticesThatAreNotNumbersSpoilOnlyTheirTriangles)
     const auto build = child([] {
         return square([](osg::Geometry& g) {
             verticesOf(g)[20] = osg::Vec3(NotANumber, NotANumber, NotANumber);
-            verticesOf(g)[40].x() = std::numeric_limits<float>::infinity();
             normalsOf(g)[90] = osg::Vec3(NotANumber, 0, 0);
         });
     });
@@ -210,7 +212,7 @@ TEST_F(Extreme, verticesThatAreNotNumbersSpoilOnlyTheirTriangles)
     lit::planOf(*kit);
     osg::ref_ptr<osgShadowVolume::LitScene> sound = lit::litScene(Lighting::PIXEL);
     sound->addChild(square());
-    // Three of 289 vertices: 12 of 256 quads at most are wrong, of a square on a third of the picture.
+    // Two of 289 vertices: 8 of 256 quads are wrong, of a square on a third of the picture.
     EXPECT_LT(support::difference(*image, *lit::picture(*sound), 2.0 / 255.0).getShareOver(), 0.03);
     // A drawable of nothing else has no bound.
     osg::ref_ptr<osgShadowVolume::LitScene> nothing = lit::litScene(Lighting::PIXEL);
@@ -219,6 +221,16 @@ TEST_F(Extreme, verticesThatAreNotNumbersSpoilOnlyTheirTriangles)
             v = osg::Vec3(NotANumber, NotANumber, NotANumber);
     }));
     EXPECT_TRUE(lit::picture(*nothing).valid());
+    // An infinite vertex gives an infinite bound, which OSG culls, with the kit as without.
+    const auto endless = child([] {
+        return square([](osg::Geometry& g) {
+            verticesOf(g)[40].x() = std::numeric_limits<float>::infinity();
+        });
+    });
+    osg::ref_ptr<osg::Group> plain = new osg::Group;
+    osg::ref_ptr<osgShadowVolume::LitScene> lit = lit::litScene(Lighting::VERTEX);
+    const osg::ref_ptr<osg::Image> stock = lit::picture(*endless(*plain));
+    EXPECT_TRUE(support::CompareImage()(lit::picture(*endless(*lit)), stock, "extreme.infinite"));
     _notify.takeWarnings(); // OSG itself tells of bounds that are not numbers
 }
 
@@ -398,8 +410,13 @@ TEST_F(Extreme, texturesThatAreMissingLeaveTheSurfacePlain)
     osg::ref_ptr<osg::Node> stock = osgDB::readRefNodeFile(file);
     osg::ref_ptr<osg::Node> kit = osgDB::readRefNodeFile(file + ".(lighting=vertex).shadowvolume");
     _notify.takeWarnings(); // the reader tells of the file
-    ASSERT_TRUE(stock && kit);
-    EXPECT_TRUE(support::CompareImage()(lit::picture(*kit), lit::picture(*stock), "extreme.textureFile"));
+    // Coin refuses a model whose texture it can't find; other versions leave it out.
+    ASSERT_EQ(stock.valid(), kit.valid());
+    if (stock)
+    {
+        EXPECT_TRUE(
+            support::CompareImage()(lit::picture(*kit), lit::picture(*stock), "extreme.textureFile"));
+    }
 }
 
 TEST_F(Extreme, programsWithErrorsShowTheFixedFunctionLookAndNameTheLine)
