@@ -6,12 +6,42 @@
 #include <osgMultiRender/GlslRaise.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace osgMultiRender
 {
 
 namespace
 {
+
+/// A text that is raised still asks for the version that its author wrote it for.
+std::string withOwnVersion(const std::string& text, const GlslVersion& target)
+{
+    static const std::string macro = "__VERSION__";
+    if (text.find(macro) == std::string::npos)
+    {
+        return text;
+    }
+    const std::vector<GlslToken> tokens = tokenize(text);
+    const int own = readVersion(text, tokens).number;
+    if (own >= target.number)
+    {
+        return text;
+    }
+    // In directives and in code alike; that comments change too does no harm.
+    const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    std::string result;
+    std::size_t from = 0;
+    for (std::size_t at; (at = text.find(macro, from)) != std::string::npos;)
+    {
+        const std::size_t end = at + macro.size();
+        const bool whole = (at == 0 || !isWord(text[at - 1])) && (end == text.size() || !isWord(text[end]));
+        result.append(text, from, at - from);
+        result += whole ? std::to_string(own) : macro;
+        from = end;
+    }
+    return result.append(text, from, std::string::npos);
+}
 
 /// The work of one wrapProgram().
 class Wrapper
@@ -20,6 +50,10 @@ public:
     Wrapper(const std::vector<GlslShader>& shaders, const GlslVersion& target)
         : _shaders(shaders), _target(target)
     {
+        for (GlslShader& shader : _shaders)
+        {
+            shader.text = withOwnVersion(shader.text, target);
+        }
     }
 
     GlslWrapped run()
@@ -153,7 +187,7 @@ private:
         }
     }
 
-    const std::vector<GlslShader>& _shaders;
+    std::vector<GlslShader> _shaders;
     GlslVersion _target;
     std::vector<GlslSource> _sources;
     std::vector<GlslFragment> _fragments;

@@ -3,8 +3,10 @@
 
 #include <osgMultiRender/GlslWrap.h>
 
+#include <osg/DisplaySettings>
 #include <osg/Shader>
 
+#include <cctype>
 #include <functional>
 #include <regex>
 #include <sstream>
@@ -56,6 +58,29 @@ std::string messageOf(const osg::Program& program, const GlslWrapMessage& messag
         text = nameOf(*program.getShader(message.shader)) + ":" +
                std::to_string(message.where.line) + ": " + text;
     return text;
+}
+
+/// "$OSG_GLSL_VERSION" and the like, which osg::State replaces only when it compiles.
+std::string withVariables(const std::string& text)
+{
+    std::string result;
+    for (std::size_t i = 0; i < text.size();)
+    {
+        std::size_t end = i + 1;
+        while (text[i] == '$' && end < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
+            ++end;
+        if (end == i + 1)
+            result += text[i];
+        else
+        {
+            std::string value;
+            osg::DisplaySettings::instance()->getValue(text.substr(i + 1, end - i - 1), value);
+            result += value;
+        }
+        i = end;
+    }
+    return result;
 }
 
 void copySettings(const osg::Program& from, osg::Program& to)
@@ -112,7 +137,7 @@ osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, std::string&
             error = nameOf(shader) + " is no text of a stage that draws";
             return nullptr;
         }
-        text.text = shader.getShaderSource();
+        text.text = withVariables(shader.getShaderSource());
         shaders.push_back(std::move(text));
     }
     // No higher than our main needs: each version makes keywords of names that users have.

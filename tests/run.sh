@@ -23,6 +23,7 @@ if ((long)); then
 fi
 # GL that is missing is a failure here, not a skip: see tests/support/HeadlessViewer.h.
 export OSGKITS_REQUIRE_GL=1
+: >build/tests.log
 status=0
 ctest --test-dir build -LE long -j "$(nproc)" --output-on-failure "${filter[@]}" >build/tests.log 2>&1 &
 pid=$!

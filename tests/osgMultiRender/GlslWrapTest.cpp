@@ -143,6 +143,24 @@ TEST(GlslWrapTest, allTextsOfAProgramAreRaisedAlike)
     EXPECT_EQ(wrapped.version.number, 410);
 }
 
+TEST(GlslWrapTest, aRaisedTextStillAsksForTheVersionThatItWasWrittenFor)
+{
+    const std::string text = "#if __VERSION__ >= 130\nout vec4 color;\n#define C color\n#else\n"
+                             "#define C gl_FragColor\n#endif\n"
+                             "void main() { C = vec4(__VERSION__, x__VERSION__, 0, 1); }\n";
+    const GlslWrapped old = wrap("#version 120\nuniform float x__VERSION__;\n" + text);
+    ASSERT_TRUE(old.ok) << error(old);
+    ASSERT_EQ(old.outputs.size(), 1u);
+    EXPECT_EQ(old.outputs[0].name, "gl_FragColor");
+    EXPECT_TRUE(contains(old.texts[0], "vec4(120, x__VERSION__, 0, 1)")) << old.texts[0];
+    const GlslWrapped none = wrap(text);
+    EXPECT_TRUE(contains(none.texts[0], "#if 110 >= 130")) << none.texts[0];
+    const GlslWrapped newer = wrap("#version 400 compatibility\nuniform float x__VERSION__;\n" + text);
+    ASSERT_TRUE(newer.ok) << error(newer);
+    EXPECT_EQ(newer.outputs[0].name, "color");
+    EXPECT_TRUE(contains(newer.texts[0], "vec4(__VERSION__,")) << newer.texts[0];
+}
+
 TEST(GlslWrapTest, privateNamesThatBecameKeywordsAreRenamed)
 {
     const GlslWrapped wrapped =
