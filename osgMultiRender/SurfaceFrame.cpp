@@ -318,17 +318,20 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         return;
     _prepared = true;
     osg::State& state = *renderInfo.getState();
-    _languageVersion = state.get<osg::GLExtensions>()->glslLanguageVersion;
+    const auto* gl = state.get<osg::GLExtensions>();
+    _languageVersion = gl->glslLanguageVersion;
+    // Some drivers tell of a newer language than their version of GL goes with.
+    const float version = std::min(gl->glVersion, _languageVersion);
     _items.resize(_bins.size());
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
         _items[bin].resize(_bins[bin].size());
-    if (_languageVersion < 3.295f)
+    if (version < 3.295f)
     {
         static std::once_flag said;
-        std::call_once(said, [this] {
+        std::call_once(said, [&] {
             OSG_WARN << _group->libraryName() << "::" << _group->className()
-                     << ": GLSL " << _languageVersion
-                     << " is older than 3.30, so models keep their fixed-function look; a driver with "
+                     << ": OpenGL " << gl->glVersion << " with GLSL " << _languageVersion
+                     << " is older than 3.3, so models keep their fixed-function look; a driver with "
                         "the OpenGL 3.3 compatibility profile is needed"
                      << std::endl;
         });
@@ -336,7 +339,7 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
             {
                 _items[bin][i].leaf = _bins[bin][i];
-                ++_beyond["GLSL older than 3.30"];
+                ++_beyond["OpenGL older than 3.3"];
             }
     }
     else

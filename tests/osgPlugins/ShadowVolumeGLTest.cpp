@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+#include <support/ChildProcess.h>
+#include <support/CompareImage.h>
+#include <support/HeadlessViewer.h>
+#include <support/InventorModels.h>
+#include <support/TemporaryFolder.h>
+
+#include <osgDB/ReadFile>
+
+#include <filesystem>
+
+// The stock programs of OSG as child processes, with nothing of ours but the plugins.
+
+namespace
+{
+
+using Picture = osg::ref_ptr<osg::Image>;
+using Environment = std::map<std::string, std::string>;
+
+class ShadowVolumePlugin : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        static support::HeadlessViewer viewer({16, 16});
+        OSGKITS_NEED_GL(viewer);
+    }
+
+    support::ProcessResult run(const std::vector<std::string>& arguments,
+                               Environment environment = {}) const
+    {
+        environment["OSG_RUN_FRAME_COUNT"] = "3";
+        support::ChildProcess process;
+        process.arguments = arguments;
+        process.environment = std::move(environment);
+        process.unset = {"DISPLAY"};
+        return process.run();
+    }
+
+    /// The last frame of osgviewer; null and a failure where it drew none.
+    Picture view(const std::string& model, Environment environment = {},
+                 const std::vector<std::string>& more = {"--SingleThreaded"}) const
+    {
+        static int number = 0;
+        const std::string file = _folder.file("view" + std::to_string(number++) + ".png");
+        environment["OSG_HEADLESS_CAPTURE"] = file;
+        std::vector<std::string> arguments = {"osgviewer", "-e", "egl", "--window", "0", "0",
+                                              "128",       "96"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.push_back(model);
+        const support::ProcessResult result = run(arguments, environment);
+        EXPECT_EQ(result.exitCode, 0) << result.output << result.errors;
+        Picture picture = osgDB::readRefImageFile(file);
+        EXPECT_TRUE(picture.valid()) << result.output << result.errors;
+        return picture;
+    }
+
+    /// Saves what `model` loads as `file`, which is returned.
+    std::string convert(const std::string& model, const std::string& file) const
+    {
+        const std::string path = _folder.file(file);
+        const support::ProcessResult result = run({"osgconv", model, path});
+        EXPECT_EQ(result.exitCode, 0) << result.output << result.errors;
+        EXPECT_TRUE(std::filesystem::exists(path)) << result.output << result.errors;
+        return path;
+    }
+
+    static bool differ(const osg::Image& a, const osg::Image& b)
+    {
+        return support::difference(a, b, 4.0 / 255.0).getShareOver() > 0.005;
+    }
+
+    support::TemporaryFolder _folder;
+    const std::string _king = support::inventorModel("chess/king.iv");
+};
+
+} // namespace
+
+TEST_F(ShadowVolumePlugin, osgviewerLightsAModelBySuffix)
+{
+    const Picture stock = view(_king), pixel = view(_king + ".shadowvolume");
+    const Picture vertex = view(_king + ".(lighting=vertex).shadowvolume");
+    const Picture off = view(_king + ".(lighting=off).shadowvolume");
+    ASSERT_TRUE(stock && pixel && vertex && off);
+    EXPECT_TRUE(support::CompareImage()(vertex, stock, "plugin.vertex"));
+    EXPECT_TRUE(differ(*off, *stock));
+    EXPECT_TRUE(differ(*pixel, *off));
+    // The option string says the same as parentheses, and these win.
+    const Picture option = view(_king + ".shadowvolume", {},
+                                {"--SingleThreaded", "-O", "shadowvolume.lighting=off"});
+    EXPECT_TRUE((support::CompareImage{0.0, 0.0, 0.0}(option, off, "plugin.option")));
+    const Picture both = view(_king + ".(lighting=pixel).shadowvolume", {},
+                              {"--SingleThreaded", "-O", "shadowvolume.lighting=off"});
+    EXPECT_TRUE((support::CompareImage{0.0, 0.0, 0.0}(both, pixel, "plugin.both")));
+}
+
+TEST_F(ShadowVolumePlugin, savedScenesLookTheSameWhenReadAgain)
+{
+    // With a texture, with transparency and with lights of the model's own.
+    const std::string models[] = {_king, support::inventorModel("simple/texture.iv"),
+                                  support::inventorModel("household/pump.iv")};
+    for (std::size_t i = 0; i < std::size(models); ++i)
+    {
+        const std::string decorated = models[i] + ".(lights=all).shadowvolume";
+        const Picture first = view(decorated);
+        ASSERT_TRUE(first.valid());
+        for (const char* extension : {"osgt", "osgb", "osgx", "osg"})
+        {
+            const std::string name = std::to_string(i) + "." + extension;
+            const Picture second = view(convert(decorated, "saved" + name));
+            // .osg itself loses images that have no file: there the kit must lose nothing more.
+            const Picture expected =
+                std::string(extension) == "osg"
+                    ? view(convert(models[i], "plain" + name) + ".(lights=all).shadowvolume")
+                    : first;
+            EXPECT_TRUE((support::CompareImage{1.0 / 255.0, 0.001, 8.0 / 255.0}(
+                second, expected, "plugin.saved" + name)));
+        }
+    }
+}
+
+TEST_F(ShadowVolumePlugin, settingsAreSavedInEachFormat)
+{
+    const Picture off = view(_king + ".(lighting=off).shadowvolume");
+    const Picture pixel = view(_king + ".shadowvolume");
+    ASSERT_TRUE(off && pixel && differ(*off, *pixel));
+    for (const char* extension : {"osgt", "osgb", "osgx", "osg"})
+    {
+        const std::string saved = convert(_king + ".(lighting=off).shadowvolume",
+                                          std::string("off.") + extension);
+        EXPECT_TRUE(support::CompareImage()(view(saved), off, "plugin.off." + std::string(extension)));
+        // There and back again: the formats do not eat each other's settings.
+        const std::string back = convert(saved, std::string("back.") + extension + ".osgt");
+        EXPECT_TRUE(support::CompareImage()(view(back), off, "plugin.back." + std::string(extension)));
+    }
+}
+
+TEST_F(ShadowVolumePlugin, iveHoldsTheModelWithoutTheKit)
+{
+    const std::string saved = convert(_king + ".(lighting=off).shadowvolume", "flat.ive");
+    const Picture flat = view(saved), stock = view(_king);
+    ASSERT_TRUE(flat && stock);
+    EXPECT_TRUE(support::CompareImage()(flat, stock, "plugin.ive"));
+    // The suffix puts the kit back.
+    EXPECT_TRUE(support::CompareImage()(view(saved + ".(lighting=off).shadowvolume"),
+                                        view(_king + ".(lighting=off).shadowvolume"), "plugin.iveAgain"));
+}
+
+TEST_F(ShadowVolumePlugin, optimizerAndThreadsDoNotChangeThePicture)
+{
+    for (const std::string& model : {_king, support::inventorModel("household/pump.iv")})
+    {
+        const std::string decorated = model + ".shadowvolume";
+        const Picture plain = view(decorated, {{"OSG_OPTIMIZER", "OFF"}});
+        ASSERT_TRUE(plain.valid());
+        const support::CompareImage compare;
+        EXPECT_TRUE(compare(view(decorated), plain, "plugin.optimizer"));
+        EXPECT_TRUE(compare(view(decorated, {}, {}), plain, "plugin.threads"));
+        EXPECT_TRUE(compare(view(decorated, {{"OSG_OPTIMIZER", "OFF"}}, {}), plain,
+                            "plugin.threadsAlone"));
+        EXPECT_TRUE(compare(view(decorated, {{"OSG_THREADING", "DrawThreadPerContext"}}, {}), plain,
+                            "plugin.drawThread"));
+        EXPECT_TRUE(compare(view(decorated,
+                                 {{"OSG_THREADING", "CullThreadPerCameraDrawThreadPerContext"}}, {}),
+                            plain, "plugin.cullThread"));
+    }
+}
+
+TEST_F(ShadowVolumePlugin, osgconvListsTheOptions)
+{
+    const support::ProcessResult result = run({"osgconv", "--format", "shadowvolume"});
+    for (const char* option : {"shadowvolume.lighting=pixel|vertex|off",
+                               "shadowvolume.lights=modes|all", "shadowvolume.shadows=off"})
+        EXPECT_NE((result.output + result.errors).find(option), std::string::npos) << option;
+}
+
+TEST_F(ShadowVolumePlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
+{
+    const support::ProcessResult result =
+        run({"osgconv", _king + ".(lihgting=off).shadowvolume", _folder.file("x.osgt")});
+    const std::string text = result.output + result.errors;
+    EXPECT_NE(text.find("setting 'lihgting=off' is not known; there are shadows=off, "
+                        "lighting=pixel|vertex|off, lights=modes|all"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(result.exitCode, 0);
+    EXPECT_FALSE(std::filesystem::exists(_folder.file("x.osgt")));
+}
+
+TEST_F(ShadowVolumePlugin, belowGL33OneLineSaysSoAndTheFixedFunctionDraws)
+{
+    const Environment old = {{"MESA_GL_VERSION_OVERRIDE", "2.1"}};
+    const Picture stock = view(_king);
+    const Picture tier = view(_king + ".shadowvolume", old);
+    ASSERT_TRUE(stock && tier);
+    EXPECT_TRUE(support::CompareImage()(tier, stock, "plugin.gl21"));
+    const support::ProcessResult result =
+        run({"osgviewer", "-e", "egl", "--SingleThreaded", "--window", "0", "0", "64", "48",
+             _king + ".shadowvolume"},
+            old);
+    const std::string text = result.output + result.errors;
+    const std::string line = "is older than 3.3, so models keep their fixed-function look";
+    const std::size_t at = text.find(line);
+    EXPECT_NE(at, std::string::npos) << text;
+    EXPECT_EQ(text.find(line, at + 1), std::string::npos) << "said once";
+}
