@@ -20,22 +20,24 @@ namespace
 
 /// Stands in a bin of the view for leaves of the private stage.
 ///
-/// Draws one leaf where `single` is set, else a whole bin. Counts as one dynamic leaf if any that it
+/// Draws the leaf number `single` of a bin, or the whole bin. Counts as one dynamic leaf if any that it
 /// stands for is dynamic, and the leaves themselves are drawn without counting: so the update may go
 /// on exactly when the last pass has been drawn, however many passes there are.
 class ProxyLeaf : public osgUtil::RenderLeaf
 {
 public:
-    ProxyLeaf(SurfaceFrame& frame, std::size_t bin, osgUtil::RenderLeaf* single,
-              osg::Drawable* drawable, osg::RefMatrix* projection, osg::RefMatrix* modelview)
-        : osgUtil::RenderLeaf(drawable, projection, modelview), _frame(&frame), _bin(bin),
-          _single(single)
+    static constexpr std::size_t All = ~std::size_t(0);
+
+    ProxyLeaf(SurfaceFrame& frame, std::size_t bin, std::size_t single, osg::Drawable* drawable,
+              const osgUtil::RenderLeaf& like)
+        : osgUtil::RenderLeaf(drawable, like._projection.get(), like._modelview.get()),
+          _frame(&frame), _bin(bin), _single(single)
     {
-        if (single)
+        if (single != All)
         {
-            _depth = single->_depth;
-            _traversalOrderNumber = single->_traversalOrderNumber;
-            _dynamic = single->_dynamic;
+            _depth = like._depth;
+            _traversalOrderNumber = like._traversalOrderNumber;
+            _dynamic = like._dynamic;
         }
         else
             for (const osgUtil::RenderLeaf* leaf : frame.getLeaves(bin))
@@ -49,10 +51,10 @@ public:
             return;
         if (previous)
             osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
-        if (_single)
-            _frame->drawLeaf(renderInfo, *_single);
-        else
+        if (_single == All)
             _frame->drawBin(renderInfo, _bin);
+        else
+            _frame->drawLeaf(renderInfo, _bin, _single);
         // The next leaf starts from our StateGraph.
         osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
         if (_dynamic)
@@ -62,28 +64,24 @@ public:
 private:
     osg::ref_ptr<SurfaceFrame> _frame;
     std::size_t _bin;
-    osg::ref_ptr<osgUtil::RenderLeaf> _single;
+    std::size_t _single;
 };
 
 /// What viewer statistics see of a bin: the primitives of all its leaves.
 class BinDrawable : public osg::Drawable
 {
 public:
-    explicit BinDrawable(const std::vector<osgUtil::RenderLeaf*>& leaves)
-    {
-        _leaves.reserve(leaves.size());
-        for (osgUtil::RenderLeaf* leaf : leaves)
-            _leaves.push_back(leaf->_drawable.get());
-    }
+    BinDrawable(SurfaceFrame& frame, std::size_t bin) : _frame(&frame), _bin(bin) {}
     bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     void accept(osg::PrimitiveFunctor& functor) const override
     {
-        for (const auto& leaf : _leaves)
-            leaf->accept(functor);
+        for (const osgUtil::RenderLeaf* leaf : _frame->getLeaves(_bin))
+            leaf->_drawable->accept(functor);
     }
 
 private:
-    std::vector<osg::ref_ptr<osg::Drawable>> _leaves;
+    osg::ref_ptr<SurfaceFrame> _frame;
+    std::size_t _bin;
 };
 
 /// The StateSet of the leaf's path that asked for the bin, or null.
@@ -107,6 +105,11 @@ const osgUtil::RenderLeaf* anyLeafOf(const osgUtil::RenderBin& bin)
         if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
             return leaf;
     return nullptr;
+}
+
+bool byOrder(const SurfaceItem& a, const SurfaceItem& b)
+{
+    return a.order < b.order;
 }
 
 bool isOrdered(const osgUtil::RenderBin& bin)
@@ -169,13 +172,13 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
         if (graph->leaves_empty())
             to.addStateGraph(graph);
         if (isOrdered(to))
-            for (osgUtil::RenderLeaf* leaf : _bins[bin])
-                graph->addLeaf(new ProxyLeaf(*this, bin, leaf, leaf->_drawable.get(),
-                                             leaf->_projection.get(), leaf->_modelview.get()));
+            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+                graph->addLeaf(new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(),
+                                             *_bins[bin][i]));
         else
-            graph->addLeaf(new ProxyLeaf(*this, bin, nullptr, new BinDrawable(_bins[bin]),
-                                         _bins[bin][0]->_projection.get(),
-                                         _bins[bin][0]->_modelview.get()));
+            graph->addLeaf(new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
+                                         *_bins[bin].front()));
+        _isOrdered.push_back(isOrdered(to));
     }
     for (const auto& [number, inner] : from.getRenderBinList())
         if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
@@ -219,22 +222,25 @@ void SurfaceFrame::forEachLight(
 
 osg::BoundingBoxd SurfaceFrame::getBounds(const osg::Matrixd& matrix, bool& unbounded) const
 {
-    osg::BoundingBoxd bounds;
+    // Leaves under one transform share its matrix: their boxes are joined before they are transformed.
+    std::unordered_map<const osg::RefMatrix*, osg::BoundingBox> local;
     unbounded = false;
     for (const auto& bin : _bins)
         for (const osgUtil::RenderLeaf* leaf : bin)
         {
             const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
-            if (!box.valid())
-            {
+            if (box.valid())
+                local[leaf->_modelview.get()].expandBy(box);
+            else
                 unbounded = true;
-                continue;
-            }
-            const osg::Matrixd toFrame =
-                leaf->_modelview.valid() ? osg::Matrixd(*leaf->_modelview) * matrix : matrix;
-            for (unsigned int corner = 0; corner < 8; ++corner)
-                bounds.expandBy(osg::Vec3d(box.corner(corner)) * toFrame);
         }
+    osg::BoundingBoxd bounds;
+    for (const auto& [modelview, box] : local)
+    {
+        const osg::Matrixd toFrame = modelview ? osg::Matrixd(*modelview) * matrix : matrix;
+        for (unsigned int corner = 0; corner < 8; ++corner)
+            bounds.expandBy(osg::Vec3d(box.corner(corner)) * toFrame);
+    }
     return bounds;
 }
 
@@ -282,34 +288,54 @@ SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
     return found->second;
 }
 
-void SurfaceFrame::resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
+SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
+                                               const osgUtil::StateGraph* graph)
 {
-    const SurfaceState& state = stateOf(leaf._parent);
-    item.leaf = &leaf;
-    SurfaceKey key;
-    std::string beyond = makeSurfaceKey(state, _pass->getLighting(), _lights,
-                                        renderInfo.getContextID(), key);
-    auto* program = static_cast<const osg::Program*>(state.get(SurfaceState::Program));
+    const auto [found, isNew] = _surfaces.try_emplace(graph);
+    Surface& surface = found->second;
+    if (!isNew)
+        return surface;
+    surface.state = &stateOf(graph);
+    std::string beyond = makeSurfaceKey(*surface.state, _pass->getLighting(), _lights,
+                                        renderInfo.getContextID(), surface.key);
+    auto* program = static_cast<const osg::Program*>(surface.state->get(SurfaceState::Program));
     if (program && program->getNumShaders() > 0)
     {
         SurfaceVariant* wrapper = wrapperOf(*program);
         if (wrapper->getProgram() && !wrapper->failed)
         {
-            item.variant = wrapper;
-            return;
+            surface.key = wrapper->getKey();
+            surface.variant = wrapper;
+            return surface;
         }
         // What GL refuses shows the fixed-function look; what only we can't wrap, its own program.
         if (!wrapper->getProgram())
             beyond = "its own program, which can't be wrapped: " + wrapper->getError();
     }
     if (!beyond.empty())
+        surface.beyond = &*_beyond.emplace(beyond, 0).first;
+    return surface;
+}
+
+void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
+{
+    item.leaf = &leaf;
+    if (surface.beyond)
     {
-        ++_beyond[beyond];
+        ++surface.beyond->second;
         return;
     }
-    if (key.lighting == LightingMode::Pixel)
-        _pass->classify(state, leaf, key, item.number);
-    item.variant = variantOf(key, nullptr);
+    if (surface.key.lighting == LightingMode::Pixel)
+    {
+        const std::uint32_t kit = surface.key.kit;
+        surface.key.kit = 0;
+        _pass->classify(*surface.state, leaf, surface.key, item.number);
+        if (surface.key.kit != kit)
+            surface.variant = nullptr;
+    }
+    if (!surface.variant)
+        surface.variant = variantOf(surface.key, nullptr);
+    item.variant = surface.variant;
 }
 
 void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
@@ -350,8 +376,20 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         });
         _pass->begin(renderInfo, *this);
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        {
+            Surface* surface = nullptr;
+            const osgUtil::StateGraph* graph = nullptr;
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-                resolve(renderInfo, *_bins[bin][i], _items[bin][i]);
+            {
+                osgUtil::RenderLeaf& leaf = *_bins[bin][i];
+                if (leaf._parent != graph) // leaves of one StateGraph follow each other
+                {
+                    graph = leaf._parent;
+                    surface = &surfaceOf(renderInfo, graph);
+                }
+                resolve(*surface, leaf, _items[bin][i]);
+            }
+        }
         _pass->end(renderInfo);
     }
     std::set<unsigned int> mentioned;
@@ -377,13 +415,12 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     std::unordered_map<const SurfaceVariant*, std::uint32_t> orderOf;
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
     {
+        if (_isOrdered[bin])
+            continue;
         for (SurfaceItem& item : _items[bin])
-        {
             item.order = orderOf.emplace(item.variant, std::uint32_t(orderOf.size())).first->second;
-            _itemOf[item.leaf] = item;
-        }
-        std::stable_sort(_items[bin].begin(), _items[bin].end(),
-                         [](const SurfaceItem& a, const SurfaceItem& b) { return a.order < b.order; });
+        if (!std::is_sorted(_items[bin].begin(), _items[bin].end(), byOrder))
+            std::stable_sort(_items[bin].begin(), _items[bin].end(), byOrder);
     }
     writePlan(renderInfo);
 }
@@ -394,10 +431,10 @@ void SurfaceFrame::drawBin(osg::RenderInfo& renderInfo, std::size_t bin)
     draw(renderInfo, _items[bin].data(), _items[bin].size());
 }
 
-void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf)
+void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::size_t leaf)
 {
     prepare(renderInfo);
-    draw(renderInfo, &_itemOf[&leaf], 1);
+    draw(renderInfo, &_items[bin][leaf], 1);
 }
 
 void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)

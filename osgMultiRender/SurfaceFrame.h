@@ -52,7 +52,7 @@ public:
 
     /// Draws the leaves of one mirrored bin, or one leaf.
     void drawBin(osg::RenderInfo& renderInfo, std::size_t bin);
-    void drawLeaf(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf);
+    void drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::size_t leaf);
 
     const std::vector<osgUtil::RenderLeaf*>& getLeaves(std::size_t bin) const { return _bins[bin]; }
 
@@ -62,7 +62,16 @@ protected:
 private:
     void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
-    void resolve(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
+    /// What the leaves of one StateGraph have in common.
+    struct Surface
+    {
+        const SurfaceState* state = nullptr;
+        SurfaceKey key;                     ///< With the kit bits of the last leaf.
+        SurfaceVariant* variant = nullptr;  ///< Of that key; null before it is looked up.
+        std::pair<const std::string, unsigned int>* beyond = nullptr; ///< In _beyond.
+    };
+    Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph);
+    void resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
     SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program);
     SurfaceVariant* wrapperOf(const osg::Program& program);
@@ -77,15 +86,16 @@ private:
     osg::ref_ptr<osgUtil::RenderStage> _private;
     std::unique_ptr<SurfacePass> _pass;
     std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
+    std::vector<bool> _isOrdered; ///< One a bin: by depth or traversal, one proxy a leaf.
 
     bool _prepared = false;
     float _languageVersion = 0.0f;
     GLLights _lights{};
     std::unordered_map<const osgUtil::StateGraph*, SurfaceState> _states;
+    std::unordered_map<const osgUtil::StateGraph*, Surface> _surfaces;
     std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash> _variants;
     std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
     std::vector<std::vector<SurfaceItem>> _items; ///< One a bin, grouped by variant.
-    std::unordered_map<const osgUtil::RenderLeaf*, SurfaceItem> _itemOf;
     std::map<std::string, unsigned int> _beyond; ///< Why leaves keep the fixed function.
     unsigned int _statesResolved = 0;
     unsigned int _compiled = 0;

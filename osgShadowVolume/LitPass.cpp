@@ -97,6 +97,37 @@ double radicalInverse(unsigned int i, unsigned int base)
     return result;
 }
 
+/// The most that a matrix stretches a length.
+double stretchOf(const osg::Matrixd& m)
+{
+    const osg::Vec3d rows[3] = {{m(0, 0), m(0, 1), m(0, 2)},
+                                {m(1, 0), m(1, 1), m(1, 2)},
+                                {m(2, 0), m(2, 1), m(2, 2)}};
+    const double a = rows[0].length2(), b = rows[1].length2(), c = rows[2].length2();
+    const double skew = std::max({std::abs(rows[0] * rows[1]), std::abs(rows[1] * rows[2]),
+                                  std::abs(rows[2] * rows[0])});
+    // Rotations and scalings have rows at right angles; for others the Frobenius norm is a bound.
+    const double largest = std::max({a, b, c});
+    return std::sqrt(skew <= 1e-6 * largest ? largest * (1.0 + 4e-6) : a + b + c);
+}
+
+/// A sphere in eye coordinates around a leaf; false for one without a finite bound.
+bool sphereOf(const osgUtil::RenderLeaf& leaf, glm::dvec3& center, double& radius)
+{
+    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
+    if (!box.valid())
+        return false;
+    osg::Vec3d middle = box.center();
+    radius = box.radius();
+    if (leaf._modelview.valid())
+    {
+        middle = middle * *leaf._modelview;
+        radius *= stretchOf(*leaf._modelview);
+    }
+    center = {middle.x(), middle.y(), middle.z()};
+    return std::isfinite(radius) && std::isfinite(glm::length(center));
+}
+
 } // namespace
 
 LitPass::LitPass(const LitScene& scene)
@@ -251,6 +282,10 @@ LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
             _lights[i].number >= int(osgMultiRender::FirstUnscopedLight))
             set.lights.push_back(i);
     fillReach(set);
+    set.reachesAll = std::all_of(set.lights.begin(), set.lights.end(), [&](std::uint32_t light) {
+        return !std::isfinite(set.reach[light]) && (_lights[light].type != EyeLight::Spot ||
+                                                    _lights[light].spotCutoffDegrees >= 90.0f);
+    });
     if (set.lights.size() > maxListed && !_unbounded)
         makeGrid(set);
     return set;
@@ -300,30 +335,22 @@ void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& lea
         number = set.gridNumber;
         return;
     }
-    std::vector<std::uint32_t> reaching = set.lights;
-    const osg::BoundingBox& box = leaf._drawable->getBoundingBox();
-    if (box.valid() && !reaching.empty())
+    if (set.forAll)
     {
-        glm::dvec3 corners[8], center(0.0);
-        for (unsigned int i = 0; i < 8; ++i)
-        {
-            const osg::Vec3d corner = leaf._modelview.valid()
-                                          ? osg::Vec3d(box.corner(i)) * *leaf._modelview
-                                          : osg::Vec3d(box.corner(i));
-            corners[i] = {corner.x(), corner.y(), corner.z()};
-            center += 0.125 * corners[i];
-        }
-        double radius = 0.0;
-        for (const glm::dvec3& corner : corners)
-            radius = std::max(radius, glm::length(corner - center));
-        if (std::isfinite(radius))
-            reaching.erase(std::remove_if(reaching.begin(), reaching.end(),
-                                          [&](std::uint32_t light) {
-                                              return !reaches(_lights[light], set.reach[light],
-                                                              center, radius);
-                                          }),
-                           reaching.end());
+        key.kit = set.forAll->kit;
+        number = set.forAll->number;
+        return;
     }
+    std::vector<std::uint32_t> reaching = set.lights;
+    glm::dvec3 center;
+    double radius = 0.0;
+    if (!reaching.empty() && !set.reachesAll && sphereOf(leaf, center, radius))
+        reaching.erase(std::remove_if(reaching.begin(), reaching.end(),
+                                      [&](std::uint32_t light) {
+                                          return !reaches(_lights[light], set.reach[light], center,
+                                                          radius);
+                                      }),
+                       reaching.end());
     if (reaching.empty())
         return; // a program without lights
     // Equal types side by side, so that few orders of the same lights make variants.
@@ -339,6 +366,8 @@ void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& lea
     else
         key.kit = Listed;
     number = listOf(std::move(reaching));
+    if (set.reachesAll)
+        set.forAll = LightSet::ForAll{key.kit, number};
 }
 
 bool LitPass::isUniform(const List& list) const

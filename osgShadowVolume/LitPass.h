@@ -41,6 +41,12 @@ private:
         std::vector<double> reach;         ///< Parallel to _lights.
         std::optional<LightGrid> grid;     ///< Only for more than MaxListed lights.
         std::uint32_t gridNumber = 0;      ///< Of _lists, when there is a grid.
+        bool reachesAll = false;           ///< Each light reaches everything: leaves need no test.
+        struct ForAll
+        {
+            std::uint32_t kit, number;
+        };
+        std::optional<ForAll> forAll; ///< What classify() then gives to every leaf.
     };
     /// What apply() sets for a leaf.
     struct List
