@@ -65,33 +65,12 @@ private:
     GLuint _colors = 0;
 };
 
-/// Keeps OSG from multisampling through an extension that is not there.
-///
-/// OSG 3.6 takes any function pointer for support, and libglvnd gives one for every name; the
-/// multisampled framebuffer would be incomplete, and drawn without samples.
-class ExtensionCheck : public osg::Camera::DrawCallback
-{
-public:
-    void operator()(osg::RenderInfo& renderInfo) const override
-    {
-        const unsigned int context = renderInfo.getContextID();
-        if (!osg::isGLExtensionSupported(context, "GL_NV_framebuffer_multisample_coverage"))
-            renderInfo.getState()
-                ->get<osg::GLExtensions>()
-                ->glRenderbufferStorageMultisampleCoverageNV = nullptr;
-    }
-
-protected:
-    ~ExtensionCheck() override = default;
-};
-
 } // namespace
 
 Capture::Capture(bool floatPixels) : _floatPixels(floatPixels) {}
 
 void Capture::install(osg::Camera& camera, int samples)
 {
-    camera.setInitialDrawCallback(new ExtensionCheck);
     camera.setFinalDrawCallback(this);
     if (!_floatPixels)
         return;

@@ -10,6 +10,22 @@
 namespace osgHeadless
 {
 
+namespace
+{
+
+/// OSG 3.6 takes any function pointer for support of this extension, and libglvnd gives one for every
+/// name; multisampled framebuffer objects of cameras would be incomplete.
+void dropUnsupportedCoverage(osg::State& state)
+{
+    if (!osg::isGLExtensionSupported(state.getContextID(), "GL_NV_framebuffer_multisample_coverage"))
+    {
+        osg::GLExtensions::Get(state.getContextID(), true)
+            ->glRenderbufferStorageMultisampleCoverageNV = nullptr;
+    }
+}
+
+} // namespace
+
 Window::Window(osg::GraphicsContext::Traits& traits, Backend& backend,
                std::unique_ptr<Surface> surface)
     : _backend(backend), _surface(std::move(surface)), _size{traits.width, traits.height}
@@ -87,6 +103,7 @@ bool Window::makeCurrentImplementation()
     {
         setDefaultFboId(_surface->getFramebuffer());
         _backend.completeExtensions(*getState());
+        dropUnsupportedCoverage(*getState());
         _extensionsComplete = true;
     }
     return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ChildProcess.h"
 
+#include <osg/GLExtensions>
 #include <osg/Image>
 #include <osgDB/ReadFile>
 #include <osgGA/TrackballManipulator>
@@ -115,9 +116,24 @@ bool hasBackground(const osg::Image* image)
 struct ReadLastFrame : osg::Camera::DrawCallback
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    void operator()(osg::RenderInfo&) const override
+    // Through a blit, which averages the samples as the window does when it is shown.
+    void operator()(osg::RenderInfo& renderInfo) const override
     {
+        const auto* gl = renderInfo.getState()->get<osg::GLExtensions>();
+        GLuint framebuffer = 0, colours = 0;
+        gl->glGenFramebuffers(1, &framebuffer);
+        gl->glGenRenderbuffers(1, &colours);
+        gl->glBindRenderbuffer(GL_RENDERBUFFER_EXT, colours);
+        gl->glRenderbufferStorage(GL_RENDERBUFFER_EXT, GL_RGBA8, 320, 240);
+        gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, framebuffer);
+        gl->glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
+                                      GL_RENDERBUFFER_EXT, colours);
+        gl->glBlitFramebuffer(0, 0, 320, 240, 0, 0, 320, 240, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+        gl->glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, framebuffer);
         image->readPixels(0, 0, 320, 240, GL_RGB, GL_UNSIGNED_BYTE);
+        gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, 0);
+        gl->glDeleteRenderbuffers(1, &colours);
+        gl->glDeleteFramebuffers(1, &framebuffer);
     }
 };
 
@@ -406,6 +422,32 @@ TEST_F(WindowingGLTest, eglEqualsARealX11Window)
             EXPECT_GT(getCoverage(x11), 1e-4) << model;
             EXPECT_LE(compare(x11, egl).worst, 2) << model << " " << samples;
         }
+    }
+}
+
+TEST_F(WindowingGLTest, samplesSmoothEdges)
+{
+    // Colours between background and model exist only where samples are averaged.
+    const std::string file = Models + "chair.iv";
+    for (const std::string plugin : {"egl", "osmesa"})
+    {
+        const auto rough = capture(plugin, smallWindow(file), "rough_" + plugin + ".png");
+        const auto smooth = capture(plugin, smallWindow(file, "4"), "smooth_" + plugin + ".png");
+        ASSERT_TRUE(rough && smooth);
+        std::set<unsigned int> colours[2];
+        for (int y = 0; y < rough->t(); ++y)
+        {
+            for (int x = 0; x < rough->s(); ++x)
+            {
+                for (int i = 0; i < 2; ++i)
+                {
+                    const osg::Vec4 c = (i ? smooth : rough)->getColor(x, y) * 255.0f;
+                    colours[i].insert((unsigned(c.r()) << 16) | (unsigned(c.g()) << 8) |
+                                      unsigned(c.b()));
+                }
+            }
+        }
+        EXPECT_GT(colours[1].size(), colours[0].size() + 20) << plugin;
     }
 }
 
