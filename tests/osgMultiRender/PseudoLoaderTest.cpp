@@ -81,8 +81,9 @@ class PseudoLoaderFile : public testing::Test
 protected:
     void SetUp() override
     {
-        _model = _folder.write("model.osgt", "#Ascii Scene\n#Version 162\n#Generator OpenSceneGraph "
-                                             "3.6.5\n\nosg::Group {\n  UniqueID 1\n}\n");
+        _model =
+            _folder.write("model.osgt", "#Ascii Scene\n#Version 162\n#Generator OpenSceneGraph "
+                                        "3.6.5\n\nosg::Group {\n  UniqueID 1\n}\n");
         osgDB::Registry::instance()->addReaderWriter(_loader);
     }
     void TearDown() override { osgDB::Registry::instance()->removeReaderWriter(_loader); }
@@ -150,8 +151,7 @@ TEST(PseudoSettings, brokenOnesAreErrorsWithThePosition)
 {
     EXPECT_EQ(errorOf("a='x"), "quote that opens at character 3 of 'a='x' is not closed");
     EXPECT_EQ(errorOf("a=(x"), "bracket that opens at character 3 of 'a=(x' is not closed");
-    EXPECT_EQ(errorOf("a=x)"),
-              "closing bracket without an opening one at character 4 of 'a=x)'");
+    EXPECT_EQ(errorOf("a=x)"), "closing bracket without an opening one at character 4 of 'a=x)'");
     EXPECT_EQ(errorOf("=1"), "setting without a name in '=1'");
 }
 

@@ -42,8 +42,8 @@ osg::ref_ptr<osg::Texture2D> texture(GLenum format = GL_RGB)
 }
 
 /// Keeps the StateSets alive to which a key's state points while it is made.
-std::string keyOf(const Change& change, SurfaceKey& key, LightingMode lighting = LightingMode::Vertex,
-                  const GLLights& lights = GLLights())
+std::string keyOf(const Change& change, SurfaceKey& key,
+                  LightingMode lighting = LightingMode::Vertex, const GLLights& lights = GLLights())
 {
     osg::ref_ptr<osg::StateSet> stateSet = new osg::StateSet;
     change(*stateSet);
@@ -94,61 +94,69 @@ std::vector<Feature> features()
         {"normalize", [=](auto& s) { s.setMode(GL_NORMALIZE, on); }},
         {"rescale", [=](auto& s) { s.setMode(GL_RESCALE_NORMAL, on); }},
         {"two-sided",
-         [](auto& s) {
+         [](auto& s)
+         {
              osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
              model->setTwoSided(true);
              s.setAttribute(model);
          }},
         {"specular", shiny},
         {"local-viewer specular",
-         [](auto& s) {
+         [](auto& s)
+         {
              shiny(s);
              osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
              model->setLocalViewer(true);
              s.setAttribute(model);
          }},
         {"separate-specular",
-         [](auto& s) {
+         [](auto& s)
+         {
              shiny(s);
              osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
              model->setColorControl(osg::LightModel::SEPARATE_SPECULAR_COLOR);
              s.setAttribute(model);
          }},
         {"color=diffuse",
-         [](auto& s) {
+         [](auto& s)
+         {
              osg::ref_ptr<osg::Material> material = new osg::Material;
              material->setColorMode(osg::Material::DIFFUSE);
              s.setAttribute(material);
          }},
-        {"tex0=2D/modulate/RGB",
-         [=](auto& s) { s.setTextureAttributeAndModes(0, texture(), on); }},
+        {"tex0=2D/modulate/RGB", [=](auto& s) { s.setTextureAttributeAndModes(0, texture(), on); }},
         {"tex3=2D/modulate/RGBA",
          [=](auto& s) { s.setTextureAttributeAndModes(3, texture(GL_RGBA), on); }},
         {"tex1=2D/replace/A",
-         [=](auto& s) {
+         [=](auto& s)
+         {
              s.setTextureAttributeAndModes(1, texture(GL_ALPHA), on);
              s.setTextureAttribute(1, new osg::TexEnv(osg::TexEnv::REPLACE));
          }},
         {"tex0=2D/modulate/RGB/gen-sphere",
-         [=](auto& s) {
+         [=](auto& s)
+         {
              s.setTextureAttributeAndModes(0, texture(), on);
              osg::ref_ptr<osg::TexGen> texGen = new osg::TexGen;
              texGen->setMode(osg::TexGen::SPHERE_MAP);
              s.setTextureAttributeAndModes(0, texGen, on);
          }},
         {"tex0=2D/modulate/RGB/matrix",
-         [=](auto& s) {
+         [=](auto& s)
+         {
              s.setTextureAttributeAndModes(0, texture(), on);
              s.setTextureAttribute(0, new osg::TexMat(osg::Matrix::scale(2, 2, 2)));
          }},
         {"fog=linear",
-         [=](auto& s) {
+         [=](auto& s)
+         {
              osg::ref_ptr<osg::Fog> fog = new osg::Fog;
              fog->setMode(osg::Fog::LINEAR);
              s.setAttributeAndModes(fog, on);
          }},
         {"fog=exp2/coordinate",
-         [=](auto& s) {
+         [=](auto& s)
+         {
              osg::ref_ptr<osg::Fog> fog = new osg::Fog;
              fog->setMode(osg::Fog::EXP2);
              fog->setFogCoordinateSource(osg::Fog::FOG_COORDINATE);
@@ -168,9 +176,9 @@ TEST(SurfaceKey, aStateThatUsesNothingHasTheDefaultKeyAndAnEmptyProgram)
         EXPECT_EQ(key, SurfaceKey());
         EXPECT_EQ(toString(key), "plain");
         const SurfaceSource source = makeSurfaceSource(key);
-        for (const char* word : {"#define OSGMR_LIGHTING", "#define OSGMR_EYE", "#define OSGMR_NORMALS",
-                                 "#define OSGMR_FOG", "#define OSGMR_CLIP", "#define OSGMR_TWO",
-                                 "uniform", "sampler", "gl_MultiTexCoord"})
+        for (const char* word : {"#define OSGMR_LIGHTING", "#define OSGMR_EYE",
+                                 "#define OSGMR_NORMALS", "#define OSGMR_FOG", "#define OSGMR_CLIP",
+                                 "#define OSGMR_TWO", "uniform", "sampler", "gl_MultiTexCoord"})
             EXPECT_FALSE(mentions(source, word)) << word;
     }
 }
@@ -184,9 +192,9 @@ TEST(SurfaceKey, whatIsSetButOffOrUnreadLeavesThePlainKey)
         [](auto& s) { s.setAttribute(new osg::LightModel); },
         [=](auto& s) { s.setAttributeAndModes(new osg::Fog, off); },
         [=](auto& s) { s.setTextureAttributeAndModes(0, texture(), off); },
-        [=](auto& s) { s.setTextureMode(0, GL_TEXTURE_2D, on); },                    // no texture
+        [=](auto& s) { s.setTextureMode(0, GL_TEXTURE_2D, on); },                   // no texture
         [=](auto& s) { s.setTextureAttributeAndModes(0, new osg::Texture2D, on); }, // no image
-        [=](auto& s) { s.setTextureAttribute(0, texture()); },                       // no mode
+        [=](auto& s) { s.setTextureAttribute(0, texture()); },                      // no mode
         [=](auto& s) { // a mode of another target
             s.setTextureAttribute(0, texture());
             s.setTextureMode(0, GL_TEXTURE_3D, on);
@@ -208,17 +216,20 @@ TEST(SurfaceKey, eachFeatureAddsItsOwnWordsAndNoOther)
 {
     EXPECT_EQ(toString(keyOf(lit)), "lighting=vertex");
     for (const Feature& feature : features())
-        EXPECT_EQ(toString(keyOf([&](osg::StateSet& s) {
-                      lit(s);
-                      feature.change(s);
-                  })),
+        EXPECT_EQ(toString(keyOf(
+                      [&](osg::StateSet& s)
+                      {
+                          lit(s);
+                          feature.change(s);
+                      })),
                   std::string("lighting=vertex ") + feature.words);
 }
 
 TEST(SurfaceKey, pixelLightingLeavesTheTypesOfLightsToTheKit)
 {
     const SurfaceKey key = keyOf(
-        [](osg::StateSet& s) {
+        [](osg::StateSet& s)
+        {
             lit(s);
             s.setMode(GL_LIGHT0, osg::StateAttribute::ON);
             s.setAttribute(new osg::ShadeModel(osg::ShadeModel::FLAT));
@@ -238,7 +249,8 @@ TEST(SurfaceKey, lightsHaveTheTypeOfTheStateSetsElseOfThePositionedOne)
     positioned[2] = spot;
     SurfaceKey key;
     keyOf(
-        [&](osg::StateSet& s) {
+        [&](osg::StateSet& s)
+        {
             lit(s);
             for (unsigned int i = 0; i < 3; ++i)
                 s.setMode(GL_LIGHT0 + i, osg::StateAttribute::ON);
@@ -257,7 +269,8 @@ TEST(SurfaceKey, equalKeysHashEquallyAndDifferentOnesHardlyEver)
     std::vector<SurfaceKey> keys;
     for (unsigned int set = 0; set < 1u << 12; ++set)
     {
-        const Change change = [&](osg::StateSet& s) {
+        const Change change = [&](osg::StateSet& s)
+        {
             lit(s);
             for (std::size_t i = 0; i < 12; ++i)
                 if (set & (1u << i))
@@ -280,8 +293,10 @@ TEST(SurfaceKey, equalKeysHashEquallyAndDifferentOnesHardlyEver)
 
 TEST(SurfaceKey, whatACombinerDoesNotReadDoesNotSplitVariants)
 {
-    const auto combine = [](GLint unread) {
-        return [unread](osg::StateSet& s) {
+    const auto combine = [](GLint unread)
+    {
+        return [unread](osg::StateSet& s)
+        {
             s.setTextureAttributeAndModes(0, texture(), osg::StateAttribute::ON);
             osg::ref_ptr<osg::TexEnvCombine> env = new osg::TexEnvCombine;
             env->setCombine_RGB(osg::TexEnvCombine::REPLACE);
@@ -300,10 +315,12 @@ TEST(SurfaceKey, whatIsBeyondTheSurfaceFunctionsIsNamed)
     SurfaceKey key;
     EXPECT_EQ(keyOf([=](auto& s) { s.setTextureAttributeAndModes(4, texture(), on); }, key),
               "a texture unit above 3");
-    EXPECT_EQ(keyOf([=](auto& s) { s.setTextureAttributeAndModes(0, new osg::PointSprite, on); }, key),
-              "point sprites");
+    EXPECT_EQ(
+        keyOf([=](auto& s) { s.setTextureAttributeAndModes(0, new osg::PointSprite, on); }, key),
+        "point sprites");
     EXPECT_EQ(keyOf(
-                  [](auto& s) {
+                  [](auto& s)
+                  {
                       osg::ref_ptr<osg::Point> point = new osg::Point;
                       point->setDistanceAttenuation(osg::Vec3(0, 0, 1));
                       s.setAttribute(point);
@@ -311,7 +328,8 @@ TEST(SurfaceKey, whatIsBeyondTheSurfaceFunctionsIsNamed)
                   key),
               "distance attenuation of points");
     EXPECT_EQ(keyOf(
-                  [=](auto& s) {
+                  [=](auto& s)
+                  {
                       osg::ref_ptr<osg::Texture2D> shadow = texture(GL_DEPTH_COMPONENT);
                       shadow->setShadowComparison(true);
                       s.setTextureAttributeAndModes(0, shadow, on);
@@ -324,11 +342,13 @@ TEST(SurfaceKey, whatIsBeyondTheSurfaceFunctionsIsNamed)
 
 TEST(SurfaceKey, sourcesHaveTheSamplersAndLightsOfTheirKey)
 {
-    const SurfaceSource source = makeSurfaceSource(keyOf([](osg::StateSet& s) {
-        lit(s);
-        s.setMode(GL_LIGHT0 + 3, osg::StateAttribute::ON);
-        s.setTextureAttributeAndModes(2, texture(), osg::StateAttribute::ON);
-    }));
+    const SurfaceSource source = makeSurfaceSource(keyOf(
+        [](osg::StateSet& s)
+        {
+            lit(s);
+            s.setMode(GL_LIGHT0 + 3, osg::StateAttribute::ON);
+            s.setTextureAttributeAndModes(2, texture(), osg::StateAttribute::ON);
+        }));
     EXPECT_TRUE(mentions(source, "uniform sampler2D osgmr_texture2;"));
     EXPECT_FALSE(mentions(source, "osgmr_texture0"));
     EXPECT_TRUE(mentions(source, "osgmr_addLight(gl_LightSource[3]"));

@@ -62,9 +62,8 @@ public:
 
     const osg::StateAttribute* get(unsigned int unit, osg::StateAttribute::Type type) const
     {
-        return unit < _textureAttributeMapList.size()
-                   ? top(_textureAttributeMapList[unit], type, 0)
-                   : nullptr;
+        return unit < _textureAttributeMapList.size() ? top(_textureAttributeMapList[unit], type, 0)
+                                                      : nullptr;
     }
 
 private:
@@ -129,8 +128,10 @@ void expectSame(const SurfaceState& state, const TopOfState& real)
     {
         for (const TrackedMode& mode : TextureModes)
             ASSERT_EQ((state.getTextureModes(unit) & mode.bit) != 0, real.isOn(unit, mode.mode));
-        ASSERT_EQ(state.get(unit, SurfaceState::TexEnv), real.get(unit, osg::StateAttribute::TEXENV));
-        ASSERT_EQ(state.get(unit, SurfaceState::TexMat), real.get(unit, osg::StateAttribute::TEXMAT));
+        ASSERT_EQ(state.get(unit, SurfaceState::TexEnv),
+                  real.get(unit, osg::StateAttribute::TEXENV));
+        ASSERT_EQ(state.get(unit, SurfaceState::TexMat),
+                  real.get(unit, osg::StateAttribute::TEXMAT));
     }
     const bool beyond = real.isOn(4, GL_TEXTURE_2D) || real.isOn(4, GL_TEXTURE_CUBE_MAP) ||
                         real.isOn(5, GL_TEXTURE_2D) || real.isOn(5, GL_TEXTURE_CUBE_MAP);

@@ -44,8 +44,8 @@ protected:
         static int number = 0;
         const std::string file = _folder.file("view" + std::to_string(number++) + ".png");
         environment["OSG_HEADLESS_CAPTURE"] = file;
-        std::vector<std::string> arguments = {"osgviewer", "-e", "egl", "--window", "0", "0",
-                                              "128",       "96"};
+        std::vector<std::string> arguments = {"osgviewer", "-e", "egl", "--window",
+                                              "0",         "0",  "128", "96"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.push_back(model);
         const support::ProcessResult result = run(arguments, environment);
@@ -86,8 +86,8 @@ TEST_F(ShadowVolumePlugin, osgviewerLightsAModelBySuffix)
     EXPECT_TRUE(differ(*off, *stock));
     EXPECT_TRUE(differ(*pixel, *off));
     // The option string says the same as parentheses, and these win.
-    const Picture option = view(_king + ".shadowvolume", {},
-                                {"--SingleThreaded", "-O", "shadowvolume.lighting=off"});
+    const Picture option =
+        view(_king + ".shadowvolume", {}, {"--SingleThreaded", "-O", "shadowvolume.lighting=off"});
     EXPECT_TRUE((support::CompareImage{0.0, 0.0, 0.0}(option, off, "plugin.option")));
     const Picture both = view(_king + ".(lighting=pixel).shadowvolume", {},
                               {"--SingleThreaded", "-O", "shadowvolume.lighting=off"});
@@ -126,12 +126,14 @@ TEST_F(ShadowVolumePlugin, settingsAreSavedInEachFormat)
     ASSERT_TRUE(off && pixel && differ(*off, *pixel));
     for (const char* extension : {"osgt", "osgb", "osgx", "osg"})
     {
-        const std::string saved = convert(_king + ".(lighting=off).shadowvolume",
-                                          std::string("off.") + extension);
-        EXPECT_TRUE(support::CompareImage()(view(saved), off, "plugin.off." + std::string(extension)));
+        const std::string saved =
+            convert(_king + ".(lighting=off).shadowvolume", std::string("off.") + extension);
+        EXPECT_TRUE(
+            support::CompareImage()(view(saved), off, "plugin.off." + std::string(extension)));
         // There and back again: the formats do not eat each other's settings.
         const std::string back = convert(saved, std::string("back.") + extension + ".osgt");
-        EXPECT_TRUE(support::CompareImage()(view(back), off, "plugin.back." + std::string(extension)));
+        EXPECT_TRUE(
+            support::CompareImage()(view(back), off, "plugin.back." + std::string(extension)));
     }
 }
 
@@ -143,7 +145,8 @@ TEST_F(ShadowVolumePlugin, iveHoldsTheModelWithoutTheKit)
     EXPECT_TRUE(support::CompareImage()(flat, stock, "plugin.ive"));
     // The suffix puts the kit back.
     EXPECT_TRUE(support::CompareImage()(view(saved + ".(lighting=off).shadowvolume"),
-                                        view(_king + ".(lighting=off).shadowvolume"), "plugin.iveAgain"));
+                                        view(_king + ".(lighting=off).shadowvolume"),
+                                        "plugin.iveAgain"));
 }
 
 TEST_F(ShadowVolumePlugin, optimizerAndThreadsDoNotChangeThePicture)
@@ -156,13 +159,13 @@ TEST_F(ShadowVolumePlugin, optimizerAndThreadsDoNotChangeThePicture)
         const support::CompareImage compare;
         EXPECT_TRUE(compare(view(decorated), plain, "plugin.optimizer"));
         EXPECT_TRUE(compare(view(decorated, {}, {}), plain, "plugin.threads"));
-        EXPECT_TRUE(compare(view(decorated, {{"OSG_OPTIMIZER", "OFF"}}, {}), plain,
-                            "plugin.threadsAlone"));
+        EXPECT_TRUE(
+            compare(view(decorated, {{"OSG_OPTIMIZER", "OFF"}}, {}), plain, "plugin.threadsAlone"));
         EXPECT_TRUE(compare(view(decorated, {{"OSG_THREADING", "DrawThreadPerContext"}}, {}), plain,
                             "plugin.drawThread"));
-        EXPECT_TRUE(compare(view(decorated,
-                                 {{"OSG_THREADING", "CullThreadPerCameraDrawThreadPerContext"}}, {}),
-                            plain, "plugin.cullThread"));
+        EXPECT_TRUE(compare(
+            view(decorated, {{"OSG_THREADING", "CullThreadPerCameraDrawThreadPerContext"}}, {}),
+            plain, "plugin.cullThread"));
     }
 }
 

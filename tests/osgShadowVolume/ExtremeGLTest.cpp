@@ -40,7 +40,8 @@ osg::ref_ptr<osg::Geode> square(const Edit& edit = [](osg::Geometry&) {})
         for (unsigned int x = 0; x <= N; ++x)
         {
             coords->push_back(osg::Vec2(x / float(N), y / float(N)));
-            vertices->push_back(osg::Vec3(2 * coords->back().x() - 1, 0, 2 * coords->back().y() - 1));
+            vertices->push_back(
+                osg::Vec3(2 * coords->back().x() - 1, 0, 2 * coords->back().y() - 1));
             normals->push_back(osg::Vec3(0, -1, 0));
         }
     for (unsigned int y = 0; y < N; ++y)
@@ -102,7 +103,8 @@ void expectSound(const lit::Build& build, const std::string& name)
 
 lit::Build child(const std::function<osg::ref_ptr<osg::Node>()>& make)
 {
-    return [make](osg::Group& kit) {
+    return [make](osg::Group& kit)
+    {
         kit.addChild(make());
         return osg::ref_ptr<osg::Node>(&kit);
     };
@@ -111,10 +113,10 @@ lit::Build child(const std::function<osg::ref_ptr<osg::Node>()>& make)
 /// The square under one light that `edit` changes.
 lit::Build underLight(const std::function<void(osg::Light&)>& edit)
 {
-    return [edit](osg::Group& kit) {
-        osg::ref_ptr<osg::Node> source =
-            lit::lightSource(1, osg::Vec4(0, -2, 0, 1), osg::Vec4(0.7f, 0.6f, 0.2f, 1),
-                             *kit.getOrCreateStateSet());
+    return [edit](osg::Group& kit)
+    {
+        osg::ref_ptr<osg::Node> source = lit::lightSource(
+            1, osg::Vec4(0, -2, 0, 1), osg::Vec4(0.7f, 0.6f, 0.2f, 1), *kit.getOrCreateStateSet());
         edit(*static_cast<osg::LightSource*>(source.get())->getLight());
         kit.addChild(source);
         kit.addChild(square());
@@ -139,13 +141,15 @@ TEST_F(Extreme, emptyModelsDrawTheBackground)
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(lighting);
         osg::ref_ptr<osg::Group> plain = new osg::Group;
         const osg::ref_ptr<osg::Image> background = lit::picture(*plain);
-        EXPECT_TRUE((support::CompareImage{0, 0, 0}(lit::picture(*kit), background, "extreme.empty")));
+        EXPECT_TRUE(
+            (support::CompareImage{0, 0, 0}(lit::picture(*kit), background, "extreme.empty")));
         kit->addChild(new osg::Geode);
         kit->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
         osg::ref_ptr<osg::Geode> bare = new osg::Geode;
         bare->addDrawable(new osg::Geometry);
         kit->addChild(bare);
-        EXPECT_TRUE((support::CompareImage{0, 0, 0}(lit::picture(*kit), background, "extreme.empty")));
+        EXPECT_TRUE(
+            (support::CompareImage{0, 0, 0}(lit::picture(*kit), background, "extreme.empty")));
     }
 }
 
@@ -155,12 +159,15 @@ TEST_F(Extreme, missingAndTruncatedFilesAreErrorsOfTheirReader)
     EXPECT_FALSE(osgDB::readRefNodeFile(folder.file("missing.iv.shadowvolume")).valid());
     const support::NotifyCapture::Lines missing = _notify.takeWarnings();
     ASSERT_EQ(missing.size(), 1u);
-    EXPECT_NE(missing[0].find("missing.iv.shadowvolume: file not found"), std::string::npos) << missing[0];
+    EXPECT_NE(missing[0].find("missing.iv.shadowvolume: file not found"), std::string::npos)
+        << missing[0];
 
     std::ifstream king(support::inventorModel("chess/king.iv"));
-    const std::string whole((std::istreambuf_iterator<char>(king)), std::istreambuf_iterator<char>());
+    const std::string whole((std::istreambuf_iterator<char>(king)),
+                            std::istreambuf_iterator<char>());
     ASSERT_GT(whole.size(), 200u);
-    for (const std::size_t size : {std::size_t(0), std::size_t(9), whole.size() / 2, whole.size() - 3})
+    for (const std::size_t size :
+         {std::size_t(0), std::size_t(9), whole.size() / 2, whole.size() - 3})
     {
         const std::string file = folder.write("cut.iv", whole.substr(0, size));
         const bool stock = osgDB::readRefNodeFile(file).valid();
@@ -177,35 +184,43 @@ TEST_F(Extreme, missingAndTruncatedFilesAreErrorsOfTheirReader)
 
 TEST_F(Extreme, modelsWithoutNormalsAreLitAsStockDoes)
 {
-    expectSound(child([] {
-                    return square([](osg::Geometry& g) { g.setNormalArray(nullptr); });
-                }),
+    expectSound(child([] { return square([](osg::Geometry& g) { g.setNormalArray(nullptr); }); }),
                 "noNormals");
 }
 
 TEST_F(Extreme, zeroNormalsGetAmbientLight)
 {
-    const auto build = child([] {
-        return square([](osg::Geometry& g) {
-            for (std::size_t i = 0; i < normalsOf(g).size(); i += 2)
-                normalsOf(g)[i] = osg::Vec3(0, 0, 0);
+    const auto build = child(
+        []
+        {
+            return square(
+                [](osg::Geometry& g)
+                {
+                    for (std::size_t i = 0; i < normalsOf(g).size(); i += 2)
+                        normalsOf(g)[i] = osg::Vec3(0, 0, 0);
+                });
         });
-    });
     expectSound(build, "zeroNormals");
-    expectFinitePixels([&](osg::Group& kit) {
-        kit.getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
-        return build(kit);
-    });
+    expectFinitePixels(
+        [&](osg::Group& kit)
+        {
+            kit.getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+            return build(kit);
+        });
 }
 
 TEST_F(Extreme, verticesThatAreNotNumbersSpoilOnlyTheirTriangles)
 {
-    const auto build = child([] {
-        return square([](osg::Geometry& g) {
-            verticesOf(g)[20] = osg::Vec3(NotANumber, NotANumber, NotANumber);
-            normalsOf(g)[90] = osg::Vec3(NotANumber, 0, 0);
+    const auto build = child(
+        []
+        {
+            return square(
+                [](osg::Geometry& g)
+                {
+                    verticesOf(g)[20] = osg::Vec3(NotANumber, NotANumber, NotANumber);
+                    normalsOf(g)[90] = osg::Vec3(NotANumber, 0, 0);
+                });
         });
-    });
     osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::PIXEL);
     const osg::ref_ptr<osg::Image> image = lit::picture(*build(*kit));
     ASSERT_TRUE(image.valid());
@@ -216,17 +231,20 @@ TEST_F(Extreme, verticesThatAreNotNumbersSpoilOnlyTheirTriangles)
     EXPECT_LT(support::difference(*image, *lit::picture(*sound), 2.0 / 255.0).getShareOver(), 0.03);
     // A drawable of nothing else has no bound.
     osg::ref_ptr<osgShadowVolume::LitScene> nothing = lit::litScene(Lighting::PIXEL);
-    nothing->addChild(square([](osg::Geometry& g) {
-        for (osg::Vec3& v : verticesOf(g))
-            v = osg::Vec3(NotANumber, NotANumber, NotANumber);
-    }));
+    nothing->addChild(square(
+        [](osg::Geometry& g)
+        {
+            for (osg::Vec3& v : verticesOf(g))
+                v = osg::Vec3(NotANumber, NotANumber, NotANumber);
+        }));
     EXPECT_TRUE(lit::picture(*nothing).valid());
     // An infinite vertex gives an infinite bound, which OSG culls, with the kit as without.
-    const auto endless = child([] {
-        return square([](osg::Geometry& g) {
-            verticesOf(g)[40].x() = std::numeric_limits<float>::infinity();
+    const auto endless = child(
+        []
+        {
+            return square([](osg::Geometry& g)
+                          { verticesOf(g)[40].x() = std::numeric_limits<float>::infinity(); });
         });
-    });
     osg::ref_ptr<osg::Group> plain = new osg::Group;
     osg::ref_ptr<osgShadowVolume::LitScene> lit = lit::litScene(Lighting::VERTEX);
     const osg::ref_ptr<osg::Image> stock = lit::picture(*endless(*plain));
@@ -248,7 +266,8 @@ TEST_F(Extreme, degenerateNonUniformAndNegativeScalesAreThoseOfStock)
         {
             const osg::Matrix& at = matrix;
             expectSound(
-                [&](osg::Group& kit) {
+                [&](osg::Group& kit)
+                {
                     osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(at);
                     transform->addChild(ball({0, 0, 0}));
                     kit.addChild(transform);
@@ -260,7 +279,8 @@ TEST_F(Extreme, degenerateNonUniformAndNegativeScalesAreThoseOfStock)
         }
     // Nothing is left of it: no answer but that there is one.
     osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::PIXEL);
-    osg::ref_ptr<osg::MatrixTransform> point = new osg::MatrixTransform(osg::Matrix::scale(0, 0, 0));
+    osg::ref_ptr<osg::MatrixTransform> point =
+        new osg::MatrixTransform(osg::Matrix::scale(0, 0, 0));
     point->addChild(ball({0, 0, 0}));
     kit->addChild(point);
     EXPECT_TRUE(lit::picture(*kit).valid());
@@ -270,14 +290,18 @@ TEST_F(Extreme, degenerateNonUniformAndNegativeScalesAreThoseOfStock)
 TEST_F(Extreme, farTinyAndHugeModelsAreLitAsNearOnes)
 {
     // The same picture at each place and size; the eye goes along.
-    const auto picture = [](double size, const osg::Vec3d& at) {
+    const auto picture = [](double size, const osg::Vec3d& at)
+    {
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::PIXEL);
         osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(
             osg::Matrix::scale(size, size, size) * osg::Matrix::translate(at));
-        osg::ref_ptr<osg::Node> source = lit::lightSource(
-            1, osg::Vec4(-1.5f, -2, 1, 1), osg::Vec4(1, 0.8f, 0.3f, 1), *kit->getOrCreateStateSet());
+        osg::ref_ptr<osg::Node> source =
+            lit::lightSource(1, osg::Vec4(-1.5f, -2, 1, 1), osg::Vec4(1, 0.8f, 0.3f, 1),
+                             *kit->getOrCreateStateSet());
         static_cast<osg::LightSource*>(source.get())->getLight()->setSpotCutoff(25.0f);
-        static_cast<osg::LightSource*>(source.get())->getLight()->setDirection(osg::Vec3(1.5f, 2, -1));
+        static_cast<osg::LightSource*>(source.get())
+            ->getLight()
+            ->setDirection(osg::Vec3(1.5f, 2, -1));
         place->addChild(source);
         place->addChild(ball({0, 0, 0}));
         kit->addChild(place);
@@ -300,25 +324,32 @@ TEST_F(Extreme, spotsOfAnyConeAndExponent)
 {
     for (const float cutoff : {0.0f, 1.0f, 45.0f, 90.0f, 180.0f})
         for (const float exponent : {0.0f, 1.0f, 128.0f})
-            expectSound(underLight([=](osg::Light& light) {
-                            light.setDirection(osg::Vec3(0.1f, 1, 0.05f));
-                            light.setSpotCutoff(cutoff);
-                            light.setSpotExponent(exponent);
-                        }),
-                        "spot." + std::to_string(int(cutoff)) + "." + std::to_string(int(exponent)));
+            expectSound(underLight(
+                            [=](osg::Light& light)
+                            {
+                                light.setDirection(osg::Vec3(0.1f, 1, 0.05f));
+                                light.setSpotCutoff(cutoff);
+                                light.setSpotExponent(exponent);
+                            }),
+                        "spot." + std::to_string(int(cutoff)) + "." +
+                            std::to_string(int(exponent)));
     // No direction at all: a cone without an axis.
-    expectFinitePixels(underLight([](osg::Light& light) {
-        light.setDirection(osg::Vec3(0, 0, 0));
-        light.setSpotCutoff(30.0f);
-    }));
+    expectFinitePixels(underLight(
+        [](osg::Light& light)
+        {
+            light.setDirection(osg::Vec3(0, 0, 0));
+            light.setSpotCutoff(30.0f);
+        }));
 }
 
 TEST_F(Extreme, attenuationOfZeroSaturates)
 {
-    const auto build = underLight([](osg::Light& light) {
-        light.setConstantAttenuation(0.0f);
-        light.setDiffuse(osg::Vec4(0.1f, 0, 0, 1));
-    });
+    const auto build = underLight(
+        [](osg::Light& light)
+        {
+            light.setConstantAttenuation(0.0f);
+            light.setDiffuse(osg::Vec4(0.1f, 0, 0, 1));
+        });
     osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::PIXEL);
     osg::ref_ptr<osg::Group> group = kit;
     const osg::ref_ptr<osg::Image> image = lit::picture(*build(*group));
@@ -332,11 +363,13 @@ TEST_F(Extreme, aLightAtAVertexIsDefined)
 {
     for (const float y : {0.0f, -1e-20f, -1e-4f})
     {
-        const auto build = underLight([=](osg::Light& light) {
-            light.setPosition(osg::Vec4(0, y, 0, 1));
-            light.setLinearAttenuation(1.0f);
-            light.setConstantAttenuation(0.0f);
-        });
+        const auto build = underLight(
+            [=](osg::Light& light)
+            {
+                light.setPosition(osg::Vec4(0, y, 0, 1));
+                light.setLinearAttenuation(1.0f);
+                light.setConstantAttenuation(0.0f);
+            });
         expectFinitePixels(build);
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::VERTEX);
         EXPECT_TRUE(lit::picture(*build(*kit)).valid());
@@ -347,7 +380,8 @@ TEST_F(Extreme, materialsBeyondTheUsualRange)
 {
     for (const float shininess : {0.0f, 128.0f})
         expectSound(
-            [=](osg::Group& kit) {
+            [=](osg::Group& kit)
+            {
                 osg::ref_ptr<osg::Material> material = new osg::Material;
                 material->setSpecular(osg::Material::FRONT_AND_BACK, osg::Vec4(4, 4, 4, 1));
                 material->setEmission(osg::Material::FRONT_AND_BACK, osg::Vec4(-1, 0, 0.1f, 1));
@@ -365,8 +399,8 @@ TEST_F(Extreme, picturesOfOnePixelAndOfTheLargestWidth)
     {
         support::HeadlessViewer viewer({width, height});
         ASSERT_TRUE(viewer.isValid()) << viewer.getError();
-        const support::CameraSpec camera =
-            support::CameraSpec::perspective({0, -3, 0}, {0, 0, 0}, {0, 0, 1}, 10.0, 1.0, 0.5, 30.0);
+        const support::CameraSpec camera = support::CameraSpec::perspective(
+            {0, -3, 0}, {0, 0, 0}, {0, 0, 1}, 10.0, 1.0, 0.5, 30.0);
         osg::ref_ptr<osg::Group> plain = new osg::Group;
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(Lighting::VERTEX);
         plain->addChild(square());
@@ -393,11 +427,13 @@ TEST_F(Extreme, texturesThatAreMissingLeaveTheSurfacePlain)
     {
         const auto& texture = make;
         expectSound(
-            [&](osg::Group& kit) {
+            [&](osg::Group& kit)
+            {
                 osg::ref_ptr<osg::Geode> geode = square();
                 if (osg::ref_ptr<osg::Texture2D> t = texture())
                     geode->getOrCreateStateSet()->setTextureAttribute(0, t);
-                geode->getOrCreateStateSet()->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::ON);
+                geode->getOrCreateStateSet()->setTextureMode(0, GL_TEXTURE_2D,
+                                                             osg::StateAttribute::ON);
                 kit.addChild(geode);
                 return osg::ref_ptr<osg::Node>(&kit);
             },
@@ -406,7 +442,8 @@ TEST_F(Extreme, texturesThatAreMissingLeaveTheSurfacePlain)
     // A file that is not there.
     support::TemporaryFolder folder;
     const std::string file = folder.write(
-        "textured.iv", "#Inventor V2.1 ascii\nSeparator { Texture2 { filename \"gone.png\" } Cube {} }\n");
+        "textured.iv",
+        "#Inventor V2.1 ascii\nSeparator { Texture2 { filename \"gone.png\" } Cube {} }\n");
     osg::ref_ptr<osg::Node> stock = osgDB::readRefNodeFile(file);
     osg::ref_ptr<osg::Node> kit = osgDB::readRefNodeFile(file + ".(lighting=vertex).shadowvolume");
     _notify.takeWarnings(); // the reader tells of the file
@@ -414,15 +451,15 @@ TEST_F(Extreme, texturesThatAreMissingLeaveTheSurfacePlain)
     ASSERT_EQ(stock.valid(), kit.valid());
     if (stock)
     {
-        EXPECT_TRUE(
-            support::CompareImage()(lit::picture(*kit), lit::picture(*stock), "extreme.textureFile"));
+        EXPECT_TRUE(support::CompareImage()(lit::picture(*kit), lit::picture(*stock),
+                                            "extreme.textureFile"));
     }
 }
 
 TEST_F(Extreme, programsWithErrorsShowTheFixedFunctionLookAndNameTheLine)
 {
-    osg::ref_ptr<osg::Shader> fragment =
-        new osg::Shader(osg::Shader::FRAGMENT, "void main()\n{\n    gl_FragColor = vec4(nonsense);\n}\n");
+    osg::ref_ptr<osg::Shader> fragment = new osg::Shader(
+        osg::Shader::FRAGMENT, "void main()\n{\n    gl_FragColor = vec4(nonsense);\n}\n");
     fragment->setName("broken.frag");
     fragment->setFileName("broken.frag");
     osg::ref_ptr<osg::Program> program = new osg::Program;

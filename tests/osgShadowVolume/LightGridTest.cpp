@@ -104,8 +104,9 @@ TEST(LightGrid, eachCellListsAllLightsThatReachAPointOfIt)
     for (int round = 0; round < 40; ++round)
     {
         const glm::dvec3 low = random.point(glm::dvec3(-100.0), glm::dvec3(0.0));
-        const glm::dvec3 high = low + glm::dvec3(random.scale(1e-3, 100.0), random.scale(1e-3, 100.0),
-                                                 random.scale(1e-3, 100.0));
+        const glm::dvec3 high =
+            low + glm::dvec3(random.scale(1e-3, 100.0), random.scale(1e-3, 100.0),
+                             random.scale(1e-3, 100.0));
         const Scene scene = makeScene(random, 1 + random.below(2000), low, high);
         ASSERT_NO_FATAL_FAILURE(expectCellsListAllThatReaches(scene, random, 200)) << round;
     }
@@ -114,9 +115,9 @@ TEST(LightGrid, eachCellListsAllLightsThatReachAPointOfIt)
 TEST(LightGrid, degenerateBoxesAreGridsToo)
 {
     RandomLights random(12);
-    const glm::dvec3 boxes[][2] = {{{-5.0, -5.0, 0.0}, {5.0, 5.0, 0.0}},   // a floor
-                                   {{-5.0, 1.0, 2.0}, {5.0, 1.0, 2.0}},    // a line
-                                   {{3.0, 3.0, 3.0}, {3.0, 3.0, 3.0}},     // a point
+    const glm::dvec3 boxes[][2] = {{{-5.0, -5.0, 0.0}, {5.0, 5.0, 0.0}},    // a floor
+                                   {{-5.0, 1.0, 2.0}, {5.0, 1.0, 2.0}},     // a line
+                                   {{3.0, 3.0, 3.0}, {3.0, 3.0, 3.0}},      // a point
                                    {{0.0, 0.0, 0.0}, {1e-12, 1e-12, 1e9}}}; // a needle
     for (const auto& box : boxes)
     {
@@ -129,7 +130,8 @@ TEST(LightGrid, farFromTheOriginEachCellListsItsLights)
 {
     RandomLights random(13);
     const glm::dvec3 low(1e7), high(1e7 + 50.0);
-    ASSERT_NO_FATAL_FAILURE(expectCellsListAllThatReaches(makeScene(random, 1000, low, high), random, 500));
+    ASSERT_NO_FATAL_FAILURE(
+        expectCellsListAllThatReaches(makeScene(random, 1000, low, high), random, 500));
     ASSERT_NO_FATAL_FAILURE(
         expectCellsListAllThatReaches(makeScene(random, 1000, -low, high, 1e-9), random, 500));
 }

@@ -97,8 +97,8 @@ TEST(LightReach, noPointThatGetsMoreThanTheThresholdIsOutOfReach)
         {
             ++lit;
             ASSERT_TRUE(reached) << "case " << i << ", type " << int(light.type) << ", reach "
-                                 << reach << ", distance "
-                                 << glm::length(center - light.position) << ", radius " << radius;
+                                 << reach << ", distance " << glm::length(center - light.position)
+                                 << ", radius " << radius;
         }
     }
     EXPECT_GT(lit, 20000u);

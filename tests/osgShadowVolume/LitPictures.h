@@ -30,7 +30,8 @@ support::HeadlessViewer& viewer();
 support::CameraSpec camera();
 
 /// A ball of radius 0.8 in a Geode; the Geode has no StateSet.
-osg::ref_ptr<osg::Geode> ball(const osg::Vec3& center, const osg::Vec4& color = osg::Vec4(1, 1, 1, 1));
+osg::ref_ptr<osg::Geode> ball(const osg::Vec3& center,
+                              const osg::Vec4& color = osg::Vec4(1, 1, 1, 1));
 
 /// Makes it transparent, sorted by depth, as osgdb_iv does.
 void makeTransparent(osg::Node& node, bool nest = true);
@@ -50,7 +51,8 @@ osgMultiRender::Plan planOf(const osgMultiRender::SurfaceGroup& kit);
 std::string entryOf(const osgMultiRender::Plan& plan, const std::string& subject);
 
 /// The scene looks the same with the kit (lighting=vertex) and with a plain group, and the kit drew
-/// something by its programs. 2/255 on 99.9 % of the pixels; edges of depth-sorted things may differ.
+/// something by its programs. 2/255 on 99.9 % of the pixels; edges of depth-sorted things may
+/// differ.
 void expectSameAsStock(const Build& build, const std::string& name, unsigned int frames = 2);
 
 /// Whether two pictures differ visibly: otherwise a test would prove nothing.

@@ -63,10 +63,10 @@ struct Changing
 
     explicit Changing(osg::Group& kit)
     {
-        source = static_cast<osg::LightSource*>(
-            lightSource(1, osg::Vec4(2, -3, 2, 0), osg::Vec4(0.2f, 0.7f, 1, 1),
-                        *root->getOrCreateStateSet())
-                .get());
+        source = static_cast<osg::LightSource*>(lightSource(1, osg::Vec4(2, -3, 2, 0),
+                                                            osg::Vec4(0.2f, 0.7f, 1, 1),
+                                                            *root->getOrCreateStateSet())
+                                                    .get());
         kit.addChild(source);
         kit.addChild(first);
         kit.addChild(second);
@@ -185,59 +185,56 @@ TEST_F(LitSceneState, changesAtRunTimeShowInTheNextFrame)
 {
     const std::vector<std::pair<const char*, Step>> steps = {
         {"texture",
-         [](Changing& s) {
-             s.second->getStateSet()->setTextureAttributeAndModes(0, checkers(2));
-         }},
+         [](Changing& s) { s.second->getStateSet()->setTextureAttributeAndModes(0, checkers(2)); }},
         {"texturePlace",
          [](Changing& s) { s.first->getStateSet()->setTextureAttributeAndModes(0, checkers(1)); }},
         {"environment",
          [](Changing& s) {
              s.second->getStateSet()->setTextureAttribute(0, new osg::TexEnv(osg::TexEnv::REPLACE));
          }},
-        {"noTexture",
-         [](Changing& s) {
-             s.first->getStateSet()->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF);
-         }},
+        {"noTexture", [](Changing& s)
+         { s.first->getStateSet()->setTextureMode(0, GL_TEXTURE_2D, osg::StateAttribute::OFF); }},
         {"colorMode", [](Changing& s) { s.ownMaterial->setColorMode(osg::Material::DIFFUSE); }},
         {"colorModeOff", [](Changing& s) { s.ownMaterial->setColorMode(osg::Material::OFF); }},
-        {"material",
-         [](Changing& s) {
-             s.ownMaterial->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 0.2f, 1, 1));
-         }},
+        {"material", [](Changing& s)
+         { s.ownMaterial->setDiffuse(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 0.2f, 1, 1)); }},
         {"pointLight",
          [](Changing& s) { s.source->getLight()->setPosition(osg::Vec4(1, -2, 1, 1)); }},
         {"attenuation", [](Changing& s) { s.source->getLight()->setLinearAttenuation(0.4f); }},
         {"spotLight",
-         [](Changing& s) {
+         [](Changing& s)
+         {
              s.source->getLight()->setPosition(osg::Vec4(0.9f, -3, 0, 1));
              s.source->getLight()->setDirection(osg::Vec3(0, 1, 0));
              s.source->getLight()->setSpotCutoff(14.0f);
          }},
         {"directional",
-         [](Changing& s) {
+         [](Changing& s)
+         {
              s.source->getLight()->setPosition(osg::Vec4(-1, -1, 0, 0));
              s.source->getLight()->setSpotCutoff(180.0f);
          }},
         {"lightOff",
-         [](Changing& s) {
-             s.first->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::OFF);
-         }},
+         [](Changing& s) { s.first->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::OFF); }},
         {"lightOverride",
-         [](Changing& s) {
-             s.root->getStateSet()->setMode(GL_LIGHT1,
-                                            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+         [](Changing& s)
+         {
+             s.root->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON |
+                                                           osg::StateAttribute::OVERRIDE);
          }},
         {"lightProtected",
-         [](Changing& s) {
-             s.first->getStateSet()->setMode(GL_LIGHT1,
-                                             osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED);
+         [](Changing& s)
+         {
+             s.first->getStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::OFF |
+                                                            osg::StateAttribute::PROTECTED);
          }},
         {"newGeode",
          [](Changing& s) {
              s.first->getParent(0)->addChild(ball({0, -0.5f, 1}, osg::Vec4(1, 1, 0, 1)));
          }},
         {"lightModel",
-         [](Changing& s) {
+         [](Changing& s)
+         {
              osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
              model->setAmbientIntensity(osg::Vec4(0.6f, 0.1f, 0.1f, 1));
              s.root->getStateSet()->setAttribute(model);
@@ -325,7 +322,8 @@ TEST_F(LitSceneState, theHeadlightNoLightAndTheSkylightAreThoseOfTheView)
     {
         lit::viewer().getViewer().setLightingMode(mode);
         expectSameAsStock(
-            [](osg::Group& kit) {
+            [](osg::Group& kit)
+            {
                 kit.addChild(ball({0, 0, 0}));
                 return osg::ref_ptr<osg::Node>(&kit);
             },
@@ -336,8 +334,10 @@ TEST_F(LitSceneState, theHeadlightNoLightAndTheSkylightAreThoseOfTheView)
 
 TEST_F(LitSceneState, lightsAreScopedByTheirModes)
 {
-    const auto build = [](unsigned int firstNumber, unsigned int secondNumber) {
-        return [=](osg::Group& kit) {
+    const auto build = [](unsigned int firstNumber, unsigned int secondNumber)
+    {
+        return [=](osg::Group& kit)
+        {
             osg::ref_ptr<osg::Geode> left = ball({-0.9f, 0, 0}), right = ball({0.9f, 0, 0});
             kit.addChild(lightSource(firstNumber, osg::Vec4(-1, -1, 1, 0), osg::Vec4(1, 0, 0, 1),
                                      *left->getOrCreateStateSet()));
@@ -362,7 +362,8 @@ TEST_F(LitSceneState, lightsAreScopedByTheirModes)
 TEST_F(LitSceneState, ofTwoLightSourcesWithOneNumberTheLastCounts)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             kit.addChild(lightSource(2, osg::Vec4(-1, -1, 1, 0), osg::Vec4(1, 0, 0, 1),
                                      *kit.getOrCreateStateSet()));
             kit.addChild(ball({-0.9f, 0, 0}));
@@ -383,8 +384,8 @@ TEST_F(LitSceneState, lightsAboveSevenRaiseNoErrorWhereverTheyAre)
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(lighting);
         osg::StateSet& scope = *kit->getOrCreateStateSet();
         const osg::Vec4 position(1, -1, 1, 0), color(0.3f, 0.3f, 0.3f, 1);
-        root->addChild(lightSource(8, position, color, scope));  // before the group
-        kit->addChild(lightSource(9, position, color, scope));   // in it
+        root->addChild(lightSource(8, position, color, scope)); // before the group
+        kit->addChild(lightSource(9, position, color, scope));  // in it
         kit->addChild(lightSource(100, position, color, scope));
         kit->addChild(ball({0, 0, 0}));
         lit::makeTransparent(*kit->getChild(2));
@@ -417,7 +418,8 @@ TEST_F(LitSceneState, lightsThatReachNothingCostNothingAndAreNamed)
     const osg::ref_ptr<osg::Image> before = lit::picture(*kit);
     const osgMultiRender::Plan plan = lit::planOf(*kit);
 
-    const auto add = [&](unsigned int number, const osg::Vec4& position, const osg::Vec4& color) {
+    const auto add = [&](unsigned int number, const osg::Vec4& position, const osg::Vec4& color)
+    {
         osg::ref_ptr<osg::Node> source = lightSource(number, position, color, scope);
         kit->addChild(source);
         return static_cast<osg::LightSource*>(source.get())->getLight();
@@ -440,7 +442,8 @@ TEST_F(LitSceneState, lightsThatReachNothingCostNothingAndAreNamed)
     for (const char* light : {"light 2 ", "light 3 ", "light 20 "})
         EXPECT_EQ(lit::entryOf(more, light), "dropped: it reaches nothing in view");
     EXPECT_EQ(lit::entryOf(more, "light 4 "), "dropped: it is black");
-    EXPECT_EQ(lit::entryOf(more, "light 5 "), "dropped: a parameter of it is infinite or not a number");
+    EXPECT_EQ(lit::entryOf(more, "light 5 "),
+              "dropped: a parameter of it is infinite or not a number");
 }
 
 TEST_F(LitSceneState, aLightWhoseModeIsOffIsDroppedByName)

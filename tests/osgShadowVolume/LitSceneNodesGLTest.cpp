@@ -2,6 +2,7 @@
 #include "LitPictures.h"
 
 #include <support/NotifyCapture.h>
+#include <support/TemporaryFolder.h>
 
 #include <osg/Billboard>
 #include <osg/Camera>
@@ -11,11 +12,15 @@
 #include <osg/LightSource>
 #include <osg/MatrixTransform>
 #include <osg/OcclusionQueryNode>
+#include <osg/PagedLOD>
 #include <osg/Switch>
 #include <osg/Texture2D>
+#include <osgDB/WriteFile>
 #include <osgViewer/CompositeViewer>
 
 #include <atomic>
+#include <chrono>
+#include <thread>
 
 using lit::ball;
 using lit::expectSameAsStock;
@@ -53,7 +58,8 @@ protected:
 TEST_F(LitSceneNodes, transparentLeavesSortWithSiblingsInsideAndOutsideOfTheGroup)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             kit.addChild(glass({-0.3f, 0, 0}, Green));
             kit.addChild(ball({0.8f, 1.5f, 0.3f}));
             kit.addChild(glass({0.2f, -2.4f, 0}, Green));
@@ -66,7 +72,8 @@ TEST_F(LitSceneNodes, transparentLeavesSortWithSiblingsInsideAndOutsideOfTheGrou
 TEST_F(LitSceneNodes, opaqueSiblingsStandBeforeBehindAndAroundTheGroup)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             kit.addChild(ball({0, 0, 0}, Green));
             osg::ref_ptr<osg::Geode> back = ball({0.8f, 1, 0}, Blue);
             back->getOrCreateStateSet()->setRenderBinDetails(-1, "RenderBin");
@@ -86,7 +93,8 @@ TEST_F(LitSceneNodes, binsBelowZeroDrawBeforeTheRest)
 {
     // Without depth test only the order of the bins decides.
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             for (int bin : {3, -1, 0, -7, 1})
             {
                 osg::ref_ptr<osg::Geode> geode = ball({0.12f * bin, 0, 0.05f * bin * bin},
@@ -105,12 +113,14 @@ TEST_F(LitSceneNodes, binsThatDoNotNestEscapeTheBinOfTheGroup)
 {
     // Inventor's transparent leaves: not nested, under a group that lies in a bin of its own.
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             kit.addChild(glass({0.3f, -1.0f, 0}, Red, false));
             kit.addChild(ball({-0.5f, 0, 0}, Green));
             osg::ref_ptr<osg::Group> inBin = group({&kit});
             inBin->getOrCreateStateSet()->setRenderBinDetails(-3, "RenderBin");
-            return group({inBin, ball({0.9f, 0.9f, 0}, Blue), glass({0.2f, -1.9f, 0.1f}, Blue, false)});
+            return group(
+                {inBin, ball({0.9f, 0.9f, 0}, Blue), glass({0.2f, -1.9f, 0.1f}, Blue, false)});
         },
         "lit.binsThatEscape");
 }
@@ -124,7 +134,8 @@ TEST_F(LitSceneNodes, aPlainGeodeBesideTheGroupStaysOutsideOfIt)
     ASSERT_TRUE(image.valid());
     EXPECT_EQ(lit::planOf(*kit).counts.at("drawCalls"), 1.0);
     // The ball in the group is unlit, white up to its edge; those outside are shaded.
-    const auto isFlat = [&](int left, int right) {
+    const auto isFlat = [&](int left, int right)
+    {
         unsigned int white = 0, shaded = 0;
         for (int y = 0; y < lit::Height; ++y)
             for (int x = left; x < right; ++x)
@@ -142,11 +153,14 @@ TEST_F(LitSceneNodes, aPlainGeodeBesideTheGroupStaysOutsideOfIt)
 TEST_F(LitSceneNodes, theSameGroupUnderTwoParentsIsDrawnTwice)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             kit.addChild(ball({-0.2f, 0, 0}, Green));
             kit.addChild(glass({0.2f, -0.9f, 0}, Red));
-            osg::ref_ptr<osg::MatrixTransform> left = new osg::MatrixTransform(osg::Matrix::translate(-1, 0, 0));
-            osg::ref_ptr<osg::MatrixTransform> right = new osg::MatrixTransform(osg::Matrix::translate(1, 0.3, 0));
+            osg::ref_ptr<osg::MatrixTransform> left =
+                new osg::MatrixTransform(osg::Matrix::translate(-1, 0, 0));
+            osg::ref_ptr<osg::MatrixTransform> right =
+                new osg::MatrixTransform(osg::Matrix::translate(1, 0.3, 0));
             left->addChild(&kit);
             right->addChild(&kit);
             return group({left, right, ball({0, 1, 0.8f}, Blue)});
@@ -157,7 +171,8 @@ TEST_F(LitSceneNodes, theSameGroupUnderTwoParentsIsDrawnTwice)
 TEST_F(LitSceneNodes, theSameGroupTwiceHasTheLightsOfEachPlacePerPixel)
 {
     // Two lights of short reach, one at each place: the lists of the two appearances differ.
-    const auto scene = [](bool twice) {
+    const auto scene = [](bool twice)
+    {
         osg::ref_ptr<osg::Group> root = new osg::Group;
         osg::ref_ptr<osg::Group> places = new osg::Group;
         for (unsigned int place = 0; place < 2; ++place)
@@ -166,7 +181,9 @@ TEST_F(LitSceneNodes, theSameGroupTwiceHasTheLightsOfEachPlacePerPixel)
                 lit::lightSource(1 + place, osg::Vec4(place ? 1 : -1, -1.3f, 0.3f, 1),
                                  place ? osg::Vec4(1, 0, 0, 1) : osg::Vec4(0, 1, 0, 1),
                                  *root->getOrCreateStateSet());
-            static_cast<osg::LightSource*>(source.get())->getLight()->setQuadraticAttenuation(20.0f);
+            static_cast<osg::LightSource*>(source.get())
+                ->getLight()
+                ->setQuadraticAttenuation(20.0f);
             static_cast<osg::LightSource*>(source.get())->getLight()->setConstantAttenuation(0.2f);
             root->addChild(source);
         }
@@ -196,7 +213,8 @@ TEST_F(LitSceneNodes, theSameGroupTwiceHasTheLightsOfEachPlacePerPixel)
 TEST_F(LitSceneNodes, nestedGroupsDrawOnce)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             osg::ref_ptr<osgShadowVolume::LitScene> inner = lit::litScene(lit::Lighting::VERTEX);
             inner->addChild(ball({0.8f, 0, 0}, Red));
             inner->addChild(glass({0, -1, 0}, Blue));
@@ -210,7 +228,8 @@ TEST_F(LitSceneNodes, nestedGroupsDrawOnce)
 TEST_F(LitSceneNodes, clearNodesInTheGroupSetTheBackground)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             osg::ref_ptr<osg::ClearNode> clear = new osg::ClearNode;
             clear->setClearColor(osg::Vec4(0.7f, 0.1f, 0.4f, 1));
             clear->addChild(ball({0, 0, 0}));
@@ -223,7 +242,8 @@ TEST_F(LitSceneNodes, clearNodesInTheGroupSetTheBackground)
 TEST_F(LitSceneNodes, lodSwitchBillboardAndOcclusionQueryAreFollowed)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             osg::ref_ptr<osg::LOD> lod = new osg::LOD;
             lod->addChild(ball({-1.2f, 0, 0}, Red), 0, 5);
             lod->addChild(ball({-1.0f, 0, 0.3f}, Green), 5, 1e6);
@@ -245,6 +265,30 @@ TEST_F(LitSceneNodes, lodSwitchBillboardAndOcclusionQueryAreFollowed)
         "lit.nodes", 4);
 }
 
+TEST_F(LitSceneNodes, pagedChildrenAreLitWhenTheyArrive)
+{
+    support::TemporaryFolder folder;
+    const std::string tile = folder.file("tile.osgt");
+    ASSERT_TRUE(osgDB::writeNodeFile(*ball({0.3f, 0, 0.2f}, Green), tile));
+    osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
+    paged->setCenter(osg::Vec3(0, 0, 0));
+    paged->setRadius(2.0f);
+    paged->setFileName(0, tile);
+    paged->setRange(0, 0.0f, 1e6f);
+    osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(lit::Lighting::VERTEX);
+    kit->addChild(paged);
+    for (int wait = 0; wait < 500 && paged->getNumChildren() == 0; ++wait)
+    {
+        lit::picture(*kit, 1);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    ASSERT_EQ(paged->getNumChildren(), 1u) << "the pager loaded nothing in 2.5 s";
+    const osg::ref_ptr<osg::Image> actual = lit::picture(*kit);
+    EXPECT_GT(lit::planOf(*kit).counts.at("leaves.program"), 0.0);
+    osg::ref_ptr<osg::Group> plain = group({ball({0.3f, 0, 0.2f}, Green)});
+    EXPECT_TRUE(support::CompareImage()(actual, lit::picture(*plain), "lit.paged"));
+}
+
 TEST_F(LitSceneNodes, animatedModelsMoveAndAreFollowed)
 {
     osg::ref_ptr<osg::MatrixTransform> turn = new osg::MatrixTransform;
@@ -256,7 +300,8 @@ TEST_F(LitSceneNodes, animatedModelsMoveAndAreFollowed)
     for (int step = 0; step < 4; ++step)
     {
         turn->setMatrix(osg::Matrix::rotate(step * 0.7, osg::Vec3(0, 1, 0)));
-        const osg::ref_ptr<osg::Image> expected = lit::picture(*stock, 1), actual = lit::picture(*kit, 1);
+        const osg::ref_ptr<osg::Image> expected = lit::picture(*stock, 1),
+                                       actual = lit::picture(*kit, 1);
         EXPECT_TRUE(support::CompareImage()(actual, expected, "lit.animated"));
     }
 }
@@ -265,7 +310,8 @@ TEST_F(LitSceneNodes, camerasThatRenderToTexturesWorkInsideAndOutsideOfTheGroup)
 {
     for (const bool inside : {false, true})
         expectSameAsStock(
-            [inside](osg::Group& kit) {
+            [inside](osg::Group& kit)
+            {
                 osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D;
                 texture->setTextureSize(64, 64);
                 texture->setInternalFormat(GL_RGBA);
@@ -295,7 +341,8 @@ TEST_F(LitSceneNodes, camerasThatRenderToTexturesWorkInsideAndOutsideOfTheGroup)
 TEST_F(LitSceneNodes, postRenderCamerasInTheGroupDrawOverIt)
 {
     expectSameAsStock(
-        [](osg::Group& kit) {
+        [](osg::Group& kit)
+        {
             osg::ref_ptr<osg::Camera> hud = new osg::Camera;
             hud->setRenderOrder(osg::Camera::POST_RENDER);
             hud->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
@@ -320,7 +367,8 @@ TEST_F(LitSceneNodes, severalViewsEachHaveAPlan)
     traits->width = 128;
     traits->height = 64;
     traits->doubleBuffer = true;
-    osg::ref_ptr<osg::GraphicsContext> context = osg::GraphicsContext::createGraphicsContext(traits);
+    osg::ref_ptr<osg::GraphicsContext> context =
+        osg::GraphicsContext::createGraphicsContext(traits);
     ASSERT_TRUE(context.valid());
     for (int i = 0; i < 2; ++i)
     {
@@ -396,10 +444,10 @@ public:
 
 TEST_F(LitSceneNodes, dynamicDrawablesAreDrawnUnderAllThreadingModels)
 {
-    for (auto model : {osgViewer::ViewerBase::SingleThreaded,
-                       osgViewer::ViewerBase::CullDrawThreadPerContext,
-                       osgViewer::ViewerBase::DrawThreadPerContext,
-                       osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
+    for (auto model :
+         {osgViewer::ViewerBase::SingleThreaded, osgViewer::ViewerBase::CullDrawThreadPerContext,
+          osgViewer::ViewerBase::DrawThreadPerContext,
+          osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
     {
         osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(lit::Lighting::PIXEL);
         for (int i = 0; i < 24; ++i)

@@ -47,8 +47,8 @@ public:
     {
         osgShadowVolume::EyeLight light;
         light.type = static_cast<osgShadowVolume::EyeLight::Type>(below(3));
-        light.position = light.type == osgShadowVolume::EyeLight::Directional ? direction()
-                                                                              : point(low, high);
+        light.position =
+            light.type == osgShadowVolume::EyeLight::Directional ? direction() : point(low, high);
         light.ambient = glm::vec3(point(glm::dvec3(0.0), glm::dvec3(0.2)));
         light.diffuse = glm::vec3(point(glm::dvec3(below(8) ? 0.0 : -1.0), glm::dvec3(1.0)));
         light.specular = glm::vec3(point(glm::dvec3(0.0), glm::dvec3(1.0)));

@@ -29,8 +29,10 @@ constexpr std::array<std::pair<const char*, LitScene::Lighting>, 3> Lightings = 
 constexpr std::array<std::pair<const char*, LitScene::LightScope>, 2> LightScopes = {
     {{"MODES", LitScene::LightScope::MODES}, {"ALL", LitScene::LightScope::ALL}}};
 
-/// Takes "<word> <name of a value>" off the input. An unknown name is skipped and leaves the default.
-template <class Names, class Set> bool read(osgDB::Input& in, const char* word, const Names& names, Set set)
+/// Takes "<word> <name of a value>" off the input. An unknown name is skipped and leaves the
+/// default.
+template <class Names, class Set>
+bool read(osgDB::Input& in, const char* word, const Names& names, Set set)
 {
     if (!in[0].matchWord(word))
         return false;
@@ -54,8 +56,8 @@ bool readLocalData(osg::Object& object, osgDB::Input& in)
     auto& scene = static_cast<LitScene&>(object);
     const bool lighting =
         read(in, "lighting", Lightings, [&](LitScene::Lighting l) { scene.setLighting(l); });
-    const bool scope =
-        read(in, "lightScope", LightScopes, [&](LitScene::LightScope s) { scene.setLightScope(s); });
+    const bool scope = read(in, "lightScope", LightScopes,
+                            [&](LitScene::LightScope s) { scene.setLightScope(s); });
     return lighting || scope;
 }
 
