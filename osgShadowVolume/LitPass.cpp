@@ -21,7 +21,8 @@ using osgMultiRender::SurfaceState;
 namespace
 {
 
-constexpr std::size_t maxListed = 32;     ///< Lights of a state up to which each leaf has its list.
+/// Lights of a state up to which each leaf is tested for those that reach it; more go to a grid.
+constexpr std::size_t maxListed = 32;
 constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
 constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
 
@@ -362,6 +363,14 @@ void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& lea
         key.kit = static_cast<std::uint32_t>(reaching.size()) << NumberShift;
         for (std::size_t i = 0; i < reaching.size(); ++i)
             key.kit |= std::uint32_t(_lights[reaching[i]].type) << (TypesShift + 2 * i);
+    }
+    else if (!_unbounded)
+    {
+        // Of lights that reach the leaf, few may reach a pixel.
+        makeGrid(set);
+        key.kit = Gridded;
+        number = set.gridNumber;
+        return;
     }
     else
         key.kit = Listed;
