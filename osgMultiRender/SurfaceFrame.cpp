@@ -2,7 +2,7 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osgMultiRender/ProgramWrap.h>
-#include <osgMultiRender/WithheldLight.h>
+#include <osgMultiRender/WithheldLights.h>
 
 #include <osg/GLExtensions>
 #include <osg/Notify>
@@ -198,21 +198,20 @@ void SurfaceFrame::forEachLight(
     const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post) {
         if (!container)
             return;
+        const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix) {
+            if (!post)
+                return f(light, matrix);
+            const osg::Matrix product = matrix ? *matrix * *post : *post;
+            f(light, &product);
+        };
         for (const auto& [attribute, matrix] : container->getAttrMatrixList())
         {
             const osg::StateAttribute* any = attribute.get();
-            auto* light = dynamic_cast<const osg::Light*>(any);
-            if (auto* withheld = dynamic_cast<const WithheldLight*>(any))
-                light = withheld->getLight();
-            if (!light)
-                continue;
-            if (!post)
-                f(*light, matrix.get());
-            else
-            {
-                const osg::Matrix product = matrix.valid() ? *matrix * *post : *post;
-                f(*light, &product);
-            }
+            if (auto* light = dynamic_cast<const osg::Light*>(any))
+                give(*light, matrix.get());
+            else if (auto* withheld = dynamic_cast<const WithheldLights*>(any))
+                for (const WithheldLights::Positioned& entry : withheld->getLights())
+                    give(*entry.light, entry.matrix.get());
         }
     };
     visit(_stage->getInheritedPositionalStateContainer(),
@@ -408,7 +407,7 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         {
             withheld->setMode(GL_LIGHT0 + number,
                               osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-            withheld->setAttribute(new WithheldLight(nullptr, number), osg::StateAttribute::OVERRIDE);
+            withheld->setAttribute(new WithheldLights(number), osg::StateAttribute::OVERRIDE);
         }
         _withheld = withheld;
     }

@@ -2,7 +2,7 @@
 #include <osgMultiRender/SurfaceGroup.h>
 
 #include <osgMultiRender/SurfaceFrame.h>
-#include <osgMultiRender/WithheldLight.h>
+#include <osgMultiRender/WithheldLights.h>
 
 #include <osg/Camera>
 #include <osg/Notify>
@@ -28,10 +28,19 @@ void withholdExtraLights(osgUtil::PositionalStateContainer* container)
 {
     if (!container)
         return;
-    for (auto& [attribute, matrix] : container->getAttrMatrixList())
-        if (auto* light = dynamic_cast<const osg::Light*>(attribute.get()))
-            if (light->getLightNum() >= int(SurfaceState::MaxGLLights))
-                attribute = new WithheldLight(light, light->getLightNum());
+    auto& list = container->getAttrMatrixList();
+    osg::ref_ptr<WithheldLights> withheld = new WithheldLights;
+    const auto end = std::remove_if(list.begin(), list.end(), [&withheld](const auto& entry) {
+        auto* light = dynamic_cast<const osg::Light*>(entry.first.get());
+        if (!light || light->getLightNum() < int(SurfaceState::MaxGLLights))
+            return false;
+        withheld->getLights().push_back({light, entry.second});
+        return true;
+    });
+    if (end == list.end())
+        return;
+    list.erase(end, list.end());
+    list.emplace_back(withheld, nullptr);
 }
 
 /// Drawn before the stage of a view, when all of its lights are known: also those of siblings that
