@@ -97,7 +97,6 @@ private:
     std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
     std::vector<std::vector<SurfaceItem>> _items; ///< One a bin, grouped by variant.
     std::map<std::string, unsigned int> _beyond; ///< Why leaves keep the fixed function.
-    unsigned int _statesResolved = 0;
     unsigned int _compiled = 0;
     osg::ref_ptr<const osg::StateSet> _withheld;
 };

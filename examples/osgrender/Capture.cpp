@@ -167,7 +167,7 @@ void Capture::countErrors() const
             return;
         ++_glErrors;
         OSG_WARN << "osgrender: OpenGL error 0x" << std::hex << code << std::dec
-                 << " in the frame\n";
+                 << " in the frame" << std::endl;
     }
 }
 

@@ -120,7 +120,7 @@ bool RenderJob::loadModel(std::string& error)
     _contents = examine(*_model);
     if (_contents.drawables == 0 && !_contents.paged)
         OSG_WARN << "osgrender: '" << _report.model
-                 << "' holds nothing to draw, the picture is the background\n";
+                 << "' holds nothing to draw, the picture is the background" << std::endl;
     return true;
 }
 
@@ -204,7 +204,7 @@ bool RenderJob::waitForTiles(std::string& error)
         if (now() > end)
         {
             OSG_WARN << "osgrender: the pager was still loading after " << _arguments.pagingSeconds
-                     << " s (--paging-limit), tiles may be missing\n";
+                     << " s (--paging-limit), tiles may be missing" << std::endl;
             return true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

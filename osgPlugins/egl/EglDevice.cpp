@@ -189,7 +189,7 @@ bool openDevice(const std::string& choice, Device& device, std::string& error)
     if (open)
     {
         error.clear();
-        OSG_INFO << "osgdb_egl: device " << choice << ", " << device.limits.renderer << "\n";
+        OSG_INFO << "osgdb_egl: device " << choice << ", " << device.limits.renderer << std::endl;
     }
     return open;
 }

@@ -71,7 +71,7 @@ std::vector<int> pickChannels(const OIIO::ImageSpec& spec, const std::string& na
         names += (names.empty() ? "" : ", ") + std::string(spec.channel_name(channel));
     }
     OSG_NOTICE << "osgdb_oiio: '" << name << "' has " << spec.nchannels << " channels, taking "
-               << names << "\n";
+               << names << std::endl;
     return picked;
 }
 

@@ -170,7 +170,7 @@ WriteResult encode(const osg::Image& image, const std::string& format, const std
         if (order.count % 2 == 0 && channels % 2 == 1)
         {
             OSG_NOTICE << "osgdb_oiio: '" << name << "': " << format
-                       << " has no alpha, which is left out\n";
+                       << " has no alpha, which is left out" << std::endl;
         }
         if (!writePixels(*output, image, channels) || !output->close())
         {

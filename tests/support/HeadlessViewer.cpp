@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <support/HeadlessViewer.h>
 
+#include <osg/FrameBufferObject>
 #include <osg/GL>
+#include <osg/GLExtensions>
+#include <osg/Texture>
 #include <osgDB/Registry>
-#include <osgUtil/RenderStage>
-#include <osgViewer/Renderer>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdlib>
@@ -22,11 +24,12 @@ namespace
 class Readback : public osg::Camera::DrawCallback
 {
 public:
-    void expect(int width, int height, osg::Image* target)
+    void expect(int width, int height, osg::Image* target, GLenum type = GL_UNSIGNED_BYTE)
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _width = width;
         _height = height;
+        _type = type;
         _target = target;
     }
 
@@ -61,7 +64,7 @@ private:
         glGetIntegerv(GL_SAMPLES, &samples);
         if (samples < 2)
         {
-            _target->readPixels(0, 0, _width, _height, GL_RGBA, GL_UNSIGNED_BYTE);
+            _target->readPixels(0, 0, _width, _height, GL_RGBA, _type);
             return;
         }
         const osg::GLExtensions* gl = state.get<osg::GLExtensions>();
@@ -70,7 +73,8 @@ private:
         gl->glGenFramebuffers(1, &framebuffer);
         gl->glGenRenderbuffers(1, &color);
         gl->glBindRenderbuffer(GL_RENDERBUFFER_EXT, color);
-        gl->glRenderbufferStorage(GL_RENDERBUFFER_EXT, GL_RGBA8, _width, _height);
+        gl->glRenderbufferStorage(GL_RENDERBUFFER_EXT,
+                                  _type == GL_FLOAT ? GL_RGBA32F_ARB : GL_RGBA8, _width, _height);
         gl->glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, drawn);
         gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, framebuffer);
         gl->glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
@@ -78,7 +82,7 @@ private:
         gl->glBlitFramebuffer(0, 0, _width, _height, 0, 0, _width, _height, GL_COLOR_BUFFER_BIT,
                               GL_NEAREST);
         gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
-        _target->readPixels(0, 0, _width, _height, GL_RGBA, GL_UNSIGNED_BYTE);
+        _target->readPixels(0, 0, _width, _height, GL_RGBA, _type);
         gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, drawn);
         gl->glDeleteRenderbuffers(1, &color);
         gl->glDeleteFramebuffers(1, &framebuffer);
@@ -89,20 +93,60 @@ private:
     mutable unsigned int _drawnFrame = ~0u;
     mutable std::vector<std::string> _errors;
     int _width = 0, _height = 0;
+    GLenum _type = GL_UNSIGNED_BYTE;
     osg::ref_ptr<osg::Image> _target;
 };
 
 /// Makes Mesa take over the material values of the last frame. Mesa 22.3 keeps glMaterial's values
 /// pending, and writes them over what a later GL_COLOR_MATERIAL has made of the current color: from
 /// the second frame on, a material that tracks the color would show the last one's values.
-class MaterialFlush : public osg::Camera::DrawCallback
+///
+/// Then draws into a framebuffer object of floats, where one is asked for. (A target that is attached
+/// to the viewer's camera is read from the window's buffers, which it does not have.)
+class FrameStart : public osg::Camera::DrawCallback
 {
 public:
-    void operator()(osg::RenderInfo&) const override
+    FrameStart(int width, int height, unsigned int samples)
+        : _width(width), _height(height), _samples(samples)
+    {
+    }
+
+    std::atomic<bool> toFloats{false};
+
+    void operator()(osg::RenderInfo& renderInfo) const override
     {
         GLfloat color[4];
         glGetFloatv(GL_CURRENT_COLOR, color);
+        osg::State& state = *renderInfo.getState();
+        const osg::GLExtensions* gl = state.get<osg::GLExtensions>();
+        if (toFloats && !_framebuffer)
+            create(*gl);
+        const GLuint framebuffer = toFloats ? _framebuffer : 0;
+        state.getGraphicsContext()->setDefaultFboId(framebuffer);
+        gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, framebuffer);
     }
+
+private:
+    void create(const osg::GLExtensions& gl) const
+    {
+        const auto attach = [&](GLenum format, std::initializer_list<GLenum> attachments) {
+            GLuint buffer = 0;
+            gl.glGenRenderbuffers(1, &buffer);
+            gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffer);
+            gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, _samples, format, _width, _height);
+            for (GLenum attachment : attachments)
+                gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, attachment, GL_RENDERBUFFER_EXT,
+                                             buffer);
+        };
+        gl.glGenFramebuffers(1, &_framebuffer);
+        gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, _framebuffer);
+        attach(GL_RGBA32F_ARB, {GL_COLOR_ATTACHMENT0_EXT});
+        attach(GL_DEPTH24_STENCIL8_EXT, {GL_DEPTH_ATTACHMENT_EXT, GL_STENCIL_ATTACHMENT_EXT});
+    }
+
+    int _width, _height;
+    unsigned int _samples;
+    mutable GLuint _framebuffer = 0; ///< Lives as long as the context.
 };
 
 std::string loadWindowingPlugin()
@@ -130,18 +174,6 @@ osg::ref_ptr<osg::GraphicsContext> createContext(const HeadlessSettings& setting
     return osg::GraphicsContext::createGraphicsContext(traits);
 }
 
-/// A render stage keeps its target although the camera has none any more.
-void dropFrameBufferObjects(osg::Camera& camera)
-{
-    auto* renderer = static_cast<osgViewer::Renderer*>(camera.getRenderer());
-    for (unsigned int i = 0; i < 2; ++i)
-    {
-        osgUtil::RenderStage* stage = renderer->getSceneView(i)->getRenderStage();
-        stage->setFrameBufferObject(nullptr);
-        stage->setMultisampleResolveFramebufferObject(nullptr);
-    }
-}
-
 } // namespace
 
 struct HeadlessViewer::State
@@ -152,6 +184,7 @@ struct HeadlessViewer::State
     bool failOnGLErrors = true;
     std::vector<std::string> glErrors;
     osg::ref_ptr<Readback> readback = new Readback;
+    osg::ref_ptr<FrameStart> start;
     osgViewer::Viewer viewer;
 
     bool prepare(osg::Node* node, const CameraSpec& camera, int width, int height);
@@ -179,7 +212,8 @@ HeadlessViewer::HeadlessViewer(const HeadlessSettings& settings) : _state(new St
     camera->setReadBuffer(GL_BACK);
     camera->setClearColor(settings.clearColor);
     camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    camera->setInitialDrawCallback(new MaterialFlush);
+    _state->start = new FrameStart(settings.width, settings.height, settings.samples);
+    camera->setInitialDrawCallback(_state->start);
     camera->setFinalDrawCallback(_state->readback);
     if (!settings.smallFeatureCulling)
         camera->setCullingMode(camera->getCullingMode() &
@@ -286,18 +320,19 @@ osg::ref_ptr<osg::Image> HeadlessViewer::render(osg::Node* node, const CameraSpe
 osg::ref_ptr<osg::Image> HeadlessViewer::renderFloat(osg::Node* node, const CameraSpec& camera,
                                                      int width, int height, unsigned int frames)
 {
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(width, height, 1, GL_RGBA, GL_FLOAT);
-    image->setInternalTextureFormat(GL_RGBA32F_ARB);
     if (!_state->prepare(node, camera, width, height))
         return nullptr;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
     osg::Camera* master = _state->viewer.getCamera();
-    master->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
-    master->attach(osg::Camera::COLOR_BUFFER, image.get(), _state->settings.samples);
+    master->setDrawBuffer(GL_COLOR_ATTACHMENT0_EXT);
+    master->setReadBuffer(GL_COLOR_ATTACHMENT0_EXT);
+    _state->start->toFloats = true;
+    _state->readback->expect(width, height, image, GL_FLOAT);
     const bool drawn = _state->drawFrames(frames);
-    master->detach(osg::Camera::COLOR_BUFFER);
-    master->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER);
-    dropFrameBufferObjects(*master);
+    _state->readback->expect(0, 0, nullptr);
+    _state->start->toFloats = false;
+    master->setDrawBuffer(GL_BACK);
+    master->setReadBuffer(GL_BACK);
     return drawn ? image : nullptr;
 }
 

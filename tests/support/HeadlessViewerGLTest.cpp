@@ -66,6 +66,22 @@ TEST(HeadlessViewer, showsTheSquareAndTheClearColor)
     EXPECT_EQ(bytes(image, 5, 16), osg::Vec4i(51, 51, 102, 255));
 }
 
+TEST(HeadlessViewer, floatPicturesOfAnySizeAndNumberOfFramesFollowEachOther)
+{
+    support::HeadlessViewer viewer;
+    OSGKITS_NEED_GL(viewer);
+    for (int round = 0; round < 3; ++round)
+        for (const int size : {16, 64, 40})
+            for (const unsigned int frames : {1u, 2u, 3u})
+            {
+                const auto floats = viewer.renderFloat(square({1, 0.25f, 0, 1}), Flat, size, size, frames);
+                EXPECT_EQ(pixel(floats, size / 2, size / 2), osg::Vec4(1, 0.25f, 0, 1))
+                    << size << " " << frames;
+                const auto bytes = viewer.render(square({0, 1, 0, 1}), Flat, size, size, frames);
+                EXPECT_EQ(pixel(bytes, size / 2, size / 2), osg::Vec4(0, 1, 0, 1)) << size;
+            }
+}
+
 TEST(HeadlessViewer, floatPictureKeepsValuesAboveOneAndTheByteOneComesBack)
 {
     HeadlessViewer viewer;
