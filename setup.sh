@@ -8,7 +8,8 @@ packages=(
     # compiler and build
     g++ cmake ninja-build
     # libraries
-    libopenscenegraph-dev libglm-dev libopenimageio-dev libosmesa6-dev libegl-dev libgl-dev
+    libopenscenegraph-dev libglm-dev libopenimageio-dev openimageio-tools libosmesa6-dev libegl-dev
+    libgl-dev
     nlohmann-json3-dev libgtest-dev libcoin-dev
     # run time: the viewer, software GL, models, plots, a real X11 window for the tests
     openscenegraph libgl1-mesa-dri libegl-mesa0 libosmesa6 inventor-data gnuplot-nox xvfb xauth
