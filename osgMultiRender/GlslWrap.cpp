@@ -29,13 +29,15 @@ std::string withOwnVersion(const std::string& text, const GlslVersion& target)
         return text;
     }
     // In directives and in code alike; that comments change too does no harm.
-    const auto isWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    const auto isWord = [](char c)
+    { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
     std::string result;
     std::size_t from = 0;
     for (std::size_t at; (at = text.find(macro, from)) != std::string::npos;)
     {
         const std::size_t end = at + macro.size();
-        const bool whole = (at == 0 || !isWord(text[at - 1])) && (end == text.size() || !isWord(text[end]));
+        const bool whole =
+            (at == 0 || !isWord(text[at - 1])) && (end == text.size() || !isWord(text[end]));
         result.append(text, from, at - from);
         result += whole ? std::to_string(own) : macro;
         from = end;

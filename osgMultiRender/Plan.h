@@ -28,9 +28,9 @@ struct PlanEntry
 /// What a kit drew, folded and dropped for one view of one frame, and why.
 struct Plan
 {
-    std::string kit;         ///< "osgShadowVolume::LitScene".
-    std::string view;        ///< Name of the camera, or "camera N" by order of appearance.
-    unsigned int frame = 0;  ///< Frame number of the last draw of this view.
+    std::string kit;        ///< "osgShadowVolume::LitScene".
+    std::string view;       ///< Name of the camera, or "camera N" by order of appearance.
+    unsigned int frame = 0; ///< Frame number of the last draw of this view.
     std::vector<PlanEntry> entries;
     std::map<std::string, double> counts; ///< "passes", "drawCalls", "programs.compiled", …
 };

@@ -48,7 +48,8 @@ std::string nameOf(const osg::Shader& shader)
 {
     if (!shader.getFileName().empty())
         return shader.getFileName();
-    return shader.getName().empty() ? std::string(shader.getTypename()) + " shader" : shader.getName();
+    return shader.getName().empty() ? std::string(shader.getTypename()) + " shader"
+                                    : shader.getName();
 }
 
 std::string messageOf(const osg::Program& program, const GlslWrapMessage& message)
@@ -105,7 +106,8 @@ std::uint64_t contentOf(const osg::Program& program)
     std::uint64_t hash = 1469598103934665603ull; // FNV-1a
     const auto add = [&hash](std::uint64_t x) { hash = (hash ^ x) * 1099511628211ull; };
     const auto addText = [&add](const std::string& text) { add(std::hash<std::string>()(text)); };
-    const auto addBindings = [&](const auto& bindings) {
+    const auto addBindings = [&](const auto& bindings)
+    {
         for (const auto& [name, index] : bindings)
         {
             addText(name);
@@ -122,6 +124,11 @@ std::uint64_t contentOf(const osg::Program& program)
     addBindings(program.getUniformBlockBindingList());
     for (GLenum parameter : geometryParameters)
         add(program.getParameter(parameter));
+    for (unsigned int i = 0; i < program.getNumTransformFeedBackVaryings(); ++i)
+        addText(program.getTransformFeedBackVarying(i));
+    add(program.getTransformFeedBackMode());
+    for (const std::string& define : program.getShaderDefines())
+        addText(define);
     return hash ? hash : 1;
 }
 
@@ -147,7 +154,8 @@ osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, std::string&
     GlslWrapped wrapped = wrapProgram(shaders, target);
     if (!wrapped.ok)
     {
-        error = wrapped.errors.empty() ? "unknown cause" : messageOf(program, wrapped.errors.front());
+        error =
+            wrapped.errors.empty() ? "unknown cause" : messageOf(program, wrapped.errors.front());
         return nullptr;
     }
     if (!bindOutputs(wrapped.outputs, program.getFragDataBindingList(), error))
@@ -167,8 +175,8 @@ osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, std::string&
     }
     if (hasFragment) // without one the fixed function shades what the vertex stage gives
     {
-        osg::ref_ptr<osg::Shader> main = new osg::Shader(
-            osg::Shader::FRAGMENT, wrapperMain(wrapped.version, wrapped.outputs));
+        osg::ref_ptr<osg::Shader> main =
+            new osg::Shader(osg::Shader::FRAGMENT, wrapperMain(wrapped.version, wrapped.outputs));
         main->setName("osgMultiRender main");
         result->addShader(main);
     }
@@ -180,7 +188,8 @@ std::string errorsOf(const osg::Program& program, osg::State& state)
     // "0:12(5): error: …" (Mesa, Intel, AMD), "0(12) : error C1008: …" (NVIDIA)
     static const std::regex line(R"(^\d+[:(](\d+)\)?\s*(?:\(\d+\))?\s*:?\s*(.*)$)");
     std::ostringstream text;
-    const auto report = [&text](const std::string& name, const std::string& log) {
+    const auto report = [&text](const std::string& name, const std::string& log)
+    {
         std::istringstream lines(log);
         for (std::string one; std::getline(lines, one);)
         {

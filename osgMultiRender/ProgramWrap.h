@@ -12,13 +12,14 @@
 namespace osgMultiRender
 {
 
-/// A number for the content of a Program: its shaders' texts, bindings and parameters. Programs with
-/// equal content share a wrapper; 0 is never returned.
+/// A number for the content of a Program: its shaders' texts, bindings and parameters. Programs
+/// with equal content share a wrapper; 0 is never returned.
 OSGMULTIRENDER_EXPORT std::uint64_t contentOf(const osg::Program& program);
 
-/// A Program that draws as `program` does but whose fragment stage is a surface function that our own
-/// main calls. Uniform names stay; attribute, fragment data and block bindings, geometry parameters
-/// and transform feedback are copied. Returns null and fills `error` where that can't be done.
+/// A Program that draws as `program` does but whose fragment stage is a surface function that our
+/// own main calls. Uniform names stay; attribute, fragment data and block bindings, geometry
+/// parameters and transform feedback are copied. Returns null and fills `error` where that can't be
+/// done.
 OSGMULTIRENDER_EXPORT osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program,
                                                              std::string& error);
 

@@ -163,7 +163,8 @@ osgDB::ReaderWriter::ReadResult PseudoLoader::readNode(const std::string& file,
     if (model.empty())
         return ReadResult(_suffix + ": no model before the suffix in '" + file + "'");
     Settings settings;
-    if (!settingsOfKit(options ? options->getOptionString() : std::string(), _suffix, settings, error) ||
+    if (!settingsOfKit(options ? options->getOptionString() : std::string(), _suffix, settings,
+                       error) ||
         !parseSettings(parameters, settings, error))
         return ReadResult(_suffix + ": " + error);
 

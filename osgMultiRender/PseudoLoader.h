@@ -16,9 +16,9 @@ using Settings = std::map<std::string, std::string>;
 
 /// Splits "file.ext" or "file.ext.(parameters)" off a pseudo-loader's suffix.
 ///
-/// `name` is the file name without the suffix: "cow.osg.(shadows=off)". Parameters exist only if the
-/// last component is a balanced round or square bracket preceded by a dot; a file name that merely
-/// ends in a bracket is left alone.
+/// `name` is the file name without the suffix: "cow.osg.(shadows=off)". Parameters exist only if
+/// the last component is a balanced round or square bracket preceded by a dot; a file name that
+/// merely ends in a bracket is left alone.
 OSGMULTIRENDER_EXPORT void splitPseudoName(const std::string& name, std::string& file,
                                            std::string& parameters);
 
@@ -29,8 +29,8 @@ OSGMULTIRENDER_EXPORT void splitPseudoName(const std::string& name, std::string&
 OSGMULTIRENDER_EXPORT bool parseSettings(const std::string& text, Settings& settings,
                                          std::string& error);
 
-/// The settings of an option string ("shadowvolume.lighting=pixel labels.size=0.3") whose keys start
-/// with "<kit>.", without that prefix. Words of other kits and plugins are ignored.
+/// The settings of an option string ("shadowvolume.lighting=pixel labels.size=0.3") whose keys
+/// start with "<kit>.", without that prefix. Words of other kits and plugins are ignored.
 OSGMULTIRENDER_EXPORT bool settingsOfKit(const std::string& optionString, const std::string& kit,
                                          Settings& settings, std::string& error);
 

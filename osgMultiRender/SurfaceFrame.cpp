@@ -2,9 +2,11 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osgMultiRender/ProgramWrap.h>
+#include <osgMultiRender/SurfaceSource.h>
 #include <osgMultiRender/WithheldLights.h>
 
 #include <osg/GLExtensions>
+#include <osg/Geometry>
 #include <osg/Notify>
 #include <osg/Timer>
 #include <osgUtil/PositionalStateContainer>
@@ -20,9 +22,9 @@ namespace
 
 /// Stands in a bin of the view for leaves of the private stage.
 ///
-/// Draws the leaf number `single` of a bin, or the whole bin. Counts as one dynamic leaf if any that it
-/// stands for is dynamic, and the leaves themselves are drawn without counting: so the update may go
-/// on exactly when the last pass has been drawn, however many passes there are.
+/// Draws the leaf number `single` of a bin, or the whole bin. Counts as one dynamic leaf if any
+/// that it stands for is dynamic, and the leaves themselves are drawn without counting: so the
+/// update may go on exactly when the last pass has been drawn, however many passes there are.
 class ProxyLeaf : public osgUtil::RenderLeaf
 {
 public:
@@ -98,7 +100,8 @@ const osg::StateSet* askedForBin(const osgUtil::RenderLeaf& leaf, int number)
 
 const osgUtil::RenderLeaf* anyLeafOf(const osgUtil::RenderBin& bin)
 {
-    for (const osgUtil::StateGraph* graph : const_cast<osgUtil::RenderBin&>(bin).getStateGraphList())
+    for (const osgUtil::StateGraph* graph :
+         const_cast<osgUtil::RenderBin&>(bin).getStateGraphList())
         if (!graph->_leaves.empty())
             return graph->_leaves.front().get();
     for (const auto& [number, inner] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList())
@@ -120,7 +123,8 @@ bool isOrdered(const osgUtil::RenderBin& bin)
 
 } // namespace
 
-SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil::RenderStage& stage)
+SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
+                           osgUtil::RenderStage& stage)
     : osg::Referenced(true), _group(&group), _bin(&bin), _stage(bin.getStage()), _private(&stage),
       _pass(group.createPass())
 {
@@ -173,8 +177,8 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
             to.addStateGraph(graph);
         if (isOrdered(to))
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-                graph->addLeaf(new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(),
-                                             *_bins[bin][i]));
+                graph->addLeaf(
+                    new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(), *_bins[bin][i]));
         else
             graph->addLeaf(new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
                                          *_bins[bin].front()));
@@ -195,10 +199,12 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
 void SurfaceFrame::forEachLight(
     const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const
 {
-    const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post) {
+    const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post)
+    {
         if (!container)
             return;
-        const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix) {
+        const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix)
+        {
             if (!post)
                 return f(light, matrix);
             const osg::Matrix product = matrix ? *matrix * *post : *post;
@@ -221,13 +227,18 @@ void SurfaceFrame::forEachLight(
 
 osg::BoundingBoxd SurfaceFrame::getBounds(const osg::Matrixd& matrix, bool& unbounded) const
 {
-    // Leaves under one transform share its matrix: their boxes are joined before they are transformed.
+    // Leaves under one transform share its matrix: their boxes are joined before they are
+    // transformed.
     std::unordered_map<const osg::RefMatrix*, osg::BoundingBox> local;
     unbounded = false;
     for (const auto& bin : _bins)
         for (const osgUtil::RenderLeaf* leaf : bin)
         {
             const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
+            const osg::Geometry* geometry = leaf->_drawable->asGeometry();
+            if (geometry &&
+                (!geometry->getVertexArray() || !geometry->getVertexArray()->getNumElements()))
+                continue; // draws nothing
             if (box.valid())
                 local[leaf->_modelview.get()].expandBy(box);
             else
@@ -263,8 +274,9 @@ SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Progra
     {
         bool made = false;
         variant = SurfaceVariantCache::instance().get(
-            _group->className(), key,
-            [&] {
+            _group->className() + std::string(" ") + glslVersionLine(_languageVersion), key,
+            [&]
+            {
                 return program ? new SurfaceVariant(key, *program)
                                : new SurfaceVariant(key, _pass->makeSnippet(key), _languageVersion);
             },
@@ -274,7 +286,8 @@ SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Progra
     return variant.get();
 }
 
-/// The variant of a model's own Program; its texts are looked at once a frame, so that a change shows.
+/// The variant of a model's own Program; its texts are looked at once a frame, so that a change
+/// shows.
 SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
 {
     const auto [found, isNew] = _wrappers.emplace(&program, nullptr);
@@ -298,7 +311,7 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
     std::string beyond = makeSurfaceKey(*surface.state, _pass->getLighting(), _lights,
                                         renderInfo.getContextID(), surface.key);
     auto* program = static_cast<const osg::Program*>(surface.state->get(SurfaceState::Program));
-    if (program && program->getNumShaders() > 0)
+    if (program && program->getNumShaders() > 0 && !surface.state->isProgramProtected())
     {
         SurfaceVariant* wrapper = wrapperOf(*program);
         if (wrapper->getProgram() && !wrapper->failed)
@@ -308,9 +321,14 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
             return surface;
         }
         // What GL refuses shows the fixed-function look; what only we can't wrap, its own program.
+        if (wrapper->failed)
+            _failedWrappers.insert(wrapper);
         if (!wrapper->getProgram())
             beyond = "its own program, which can't be wrapped: " + wrapper->getError();
     }
+    // Only PROTECTED is stronger than our OVERRIDE: such a leaf draws with its own program anyway.
+    if (surface.state->isProgramProtected())
+        beyond = "its own protected program";
     if (!beyond.empty())
         surface.beyond = &*_beyond.emplace(beyond, 0).first;
     return surface;
@@ -353,13 +371,17 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     if (version < 3.295f)
     {
         static std::once_flag said;
-        std::call_once(said, [&] {
-            OSG_WARN << _group->libraryName() << "::" << _group->className()
-                     << ": OpenGL " << gl->glVersion << " with GLSL " << _languageVersion
-                     << " is older than 3.3, so models keep their fixed-function look; a driver with "
-                        "the OpenGL 3.3 compatibility profile is needed"
-                     << std::endl;
-        });
+        std::call_once(said,
+                       [&]
+                       {
+                           OSG_WARN << _group->libraryName() << "::" << _group->className()
+                                    << ": OpenGL " << gl->glVersion << " with GLSL "
+                                    << _languageVersion
+                                    << " is older than 3.3, so models keep their fixed-function "
+                                       "look; a driver with "
+                                       "the OpenGL 3.3 compatibility profile is needed"
+                                    << std::endl;
+                       });
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
             {
@@ -369,10 +391,12 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     }
     else
     {
-        forEachLight([this](const osg::Light& light, const osg::Matrix*) {
-            if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
-                _lights[light.getLightNum()] = &light;
-        });
+        forEachLight(
+            [this](const osg::Light& light, const osg::Matrix*)
+            {
+                if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
+                    _lights[light.getLightNum()] = &light;
+            });
         _pass->begin(renderInfo, *this);
         for (std::size_t bin = 0; bin < _bins.size(); ++bin)
         {
@@ -434,123 +458,6 @@ void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::s
 {
     prepare(renderInfo);
     draw(renderInfo, &_items[bin][leaf], 1);
-}
-
-void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
-{
-    osg::State& state = *renderInfo.getState();
-    const osg::StateSet* under = _pass->startRun();
-    if (_withheld)
-        state.pushStateSet(_withheld.get());
-    if (under)
-        state.pushStateSet(under);
-    osgUtil::RenderLeaf* previous = nullptr;
-    SurfaceVariant* current = nullptr;
-    for (std::size_t i = 0; i < count; ++i)
-    {
-        if (items[i].variant != current)
-        {
-            if (previous)
-                osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
-            previous = nullptr;
-            if (current)
-                state.popStateSet();
-            current = items[i].variant;
-            if (current)
-                state.pushStateSet(current->getStateSet());
-        }
-        drawOne(renderInfo, items[i], previous);
-        previous = items[i].leaf;
-    }
-    if (previous)
-        osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
-    if (current)
-        state.popStateSet();
-    if (under)
-        state.popStateSet();
-    if (_withheld)
-        state.popStateSet();
-}
-
-void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
-                           osgUtil::RenderLeaf* previous)
-{
-    osg::State& state = *renderInfo.getState();
-    osgUtil::RenderLeaf& leaf = *item.leaf;
-    state.applyProjectionMatrix(leaf._projection.get());
-    state.applyModelViewMatrix(leaf._modelview.get());
-
-    SurfaceVariant* variant = item.variant;
-    const bool first = variant && variant->compileMilliseconds.load() == 0.0;
-    const osg::Timer_t start = first ? osg::Timer::instance()->tick() : 0;
-    osgUtil::StateGraph* graph = leaf._parent;
-    osgUtil::StateGraph::moveStateGraph(state, previous ? previous->_parent->_parent : nullptr,
-                                        graph->_parent);
-    if (!previous || previous->_parent != graph)
-        state.apply(graph->getStateSet());
-    if (first)
-        variant->compileMilliseconds =
-            osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
-    if (variant)
-    {
-        const auto* program = state.getLastAppliedProgramObject();
-        if (!program || program->getProgram() != variant->getProgram())
-            reportFailure(state, *variant);
-        else if (variant->getKey().kit)
-            _pass->apply(renderInfo, *variant, item.number);
-    }
-    if (state.getUseModelViewAndProjectionUniforms())
-        state.applyModelViewAndProjectionUniformsIfRequired();
-    leaf._drawable->draw(renderInfo);
-}
-
-void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
-{
-    if (variant.failed.exchange(true))
-        return;
-    const std::string& name = variant.getProgram()->getName();
-    OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
-             << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
-             << errorsOf(*variant.getProgram(), state) << std::flush;
-}
-
-void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
-{
-    Plan plan;
-    plan.kit = std::string(_group->libraryName()) + "::" + _group->className();
-    if (const osg::FrameStamp* stamp = renderInfo.getState()->getFrameStamp())
-        plan.frame = stamp->getFrameNumber();
-    unsigned int drawn = 0, fixed = 0, failed = 0;
-    std::map<SurfaceVariant*, unsigned int> leaves;
-    for (const auto& bin : _items)
-        for (const SurfaceItem& item : bin)
-        {
-            ++(item.variant ? drawn : fixed);
-            if (item.variant)
-                ++leaves[item.variant];
-        }
-    double compileMilliseconds = 0.0;
-    for (const auto& [variant, number] : leaves)
-    {
-        failed += variant->failed;
-        compileMilliseconds += variant->compileMilliseconds;
-        plan.entries.push_back({"variant " + toString(variant->getKey()),
-                                PlanEntry::Decision::Drawn, std::to_string(number) + " drawables"});
-    }
-    for (const auto& [reason, number] : _beyond)
-        plan.entries.push_back({"fixed function", PlanEntry::Decision::Drawn,
-                                std::to_string(number) + " drawables keep it because of " + reason});
-    plan.counts["leaves.program"] = drawn;
-    plan.counts["leaves.fixedFunction"] = fixed;
-    plan.counts["drawCalls"] = drawn + fixed;
-    plan.counts["passes"] = drawn + fixed ? 1 : 0;
-    plan.counts["variants"] = static_cast<double>(leaves.size());
-    plan.counts["variants.failed"] = failed;
-    plan.counts["states"] = static_cast<double>(_states.size());
-    plan.counts["programs.compiledThisFrame"] = _compiled;
-    plan.counts["programs.compileMilliseconds"] = compileMilliseconds;
-    _pass->fillPlan(plan);
-    _group->setPlan(_stage->getCamera(), std::move(plan));
 }
 
 } // namespace osgMultiRender

@@ -9,6 +9,7 @@
 #include <osgUtil/StateGraph>
 
 #include <functional>
+#include <set>
 #include <unordered_map>
 
 namespace osgMultiRender
@@ -26,8 +27,8 @@ struct SurfaceItem
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
 ///
 /// The subgraph's leaves lie in a private RenderStage. Each of its bins is mirrored in the bins of
-/// the view: a bin sorted by state by one proxy leaf that draws all its leaves, a bin sorted by depth
-/// or traversal by one proxy a leaf, so that they sort together with the leaves of siblings.
+/// the view: a bin sorted by state by one proxy leaf that draws all its leaves, a bin sorted by
+/// depth or traversal by one proxy a leaf, so that they sort together with the leaves of siblings.
 class OSGMULTIRENDER_EXPORT SurfaceFrame : public osg::Referenced
 {
 public:
@@ -66,8 +67,8 @@ private:
     struct Surface
     {
         const SurfaceState* state = nullptr;
-        SurfaceKey key;                     ///< With the kit bits of the last leaf.
-        SurfaceVariant* variant = nullptr;  ///< Of that key; null before it is looked up.
+        SurfaceKey key;                    ///< With the kit bits of the last leaf.
+        SurfaceVariant* variant = nullptr; ///< Of that key; null before it is looked up.
         std::pair<const std::string, unsigned int>* beyond = nullptr; ///< In _beyond.
     };
     Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph);
@@ -77,7 +78,8 @@ private:
     SurfaceVariant* wrapperOf(const osg::Program& program);
     void reportFailure(osg::State& state, SurfaceVariant& variant);
     void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
-    void drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item, osgUtil::RenderLeaf* previous);
+    void drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
+                 osgUtil::RenderLeaf* previous);
     void writePlan(osg::RenderInfo& renderInfo);
 
     osg::ref_ptr<SurfaceGroup> _group;
@@ -95,8 +97,9 @@ private:
     std::unordered_map<const osgUtil::StateGraph*, Surface> _surfaces;
     std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash> _variants;
     std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
-    std::vector<std::vector<SurfaceItem>> _items; ///< One a bin, grouped by variant.
-    std::map<std::string, unsigned int> _beyond; ///< Why leaves keep the fixed function.
+    std::set<const SurfaceVariant*> _failedWrappers; ///< Their leaves show the fixed-function look.
+    std::vector<std::vector<SurfaceItem>> _items;    ///< One a bin, grouped by variant.
+    std::map<std::string, unsigned int> _beyond;     ///< Why leaves keep the fixed function.
     unsigned int _compiled = 0;
     osg::ref_ptr<const osg::StateSet> _withheld;
 };

@@ -30,13 +30,16 @@ void withholdExtraLights(osgUtil::PositionalStateContainer* container)
         return;
     auto& list = container->getAttrMatrixList();
     osg::ref_ptr<WithheldLights> withheld = new WithheldLights;
-    const auto end = std::remove_if(list.begin(), list.end(), [&withheld](const auto& entry) {
-        auto* light = dynamic_cast<const osg::Light*>(entry.first.get());
-        if (!light || light->getLightNum() < int(SurfaceState::MaxGLLights))
-            return false;
-        withheld->getLights().push_back({light, entry.second});
-        return true;
-    });
+    const auto end =
+        std::remove_if(list.begin(), list.end(),
+                       [&withheld](const auto& entry)
+                       {
+                           auto* light = dynamic_cast<const osg::Light*>(entry.first.get());
+                           if (!light || light->getLightNum() < int(SurfaceState::MaxGLLights))
+                               return false;
+                           withheld->getLights().push_back({light, entry.second});
+                           return true;
+                       });
     if (end == list.end())
         return;
     list.erase(end, list.end());
@@ -174,10 +177,18 @@ void SurfaceGroup::setPlan(const osg::Camera* camera, Plan plan)
                                                      : "camera " + std::to_string(index);
     _compiled += plan.counts["programs.compiledThisFrame"];
     plan.counts["programs.compiled"] = _compiled;
-    plan.counts["programs.reused"] =
-        plan.counts["states"] - plan.counts["programs.compiledThisFrame"];
+    // States that are drawn by a program that another one has brought in.
+    plan.counts["programs.reused"] = plan.counts["states"] - plan.counts["variants"];
     _plans[index].plan = std::move(plan);
     OSG_INFO << toString(_plans[index].plan) << std::flush;
+}
+
+void SurfaceGroup::addFailure(const osg::Camera* camera)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (ViewPlan& view : _plans)
+        if (view.camera.get() == camera)
+            ++view.plan.counts["variants.failed"];
 }
 
 std::vector<Plan> SurfaceGroup::getPlans() const

@@ -36,14 +36,15 @@ public:
     virtual void begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame) = 0;
     /// Says which kit bits a leaf's key gets, and gives the leaf a number for apply(). Only for
     /// leaves whose key has LightingMode::Pixel.
-    virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
-                          std::uint32_t& number) = 0;
+    virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                          SurfaceKey& key, std::uint32_t& number) = 0;
     /// After the last classify().
     virtual void end(osg::RenderInfo& renderInfo) = 0;
     /// The GLSL that a key with these kit bits needs.
     virtual SurfaceSnippet makeSnippet(const SurfaceKey& key) const = 0;
     /// Called before each run of leaves: since the last one other passes may have used the same
-    /// programs and textures. Returns what is pushed under the variants during the run; null for none.
+    /// programs and textures. Returns what is pushed under the variants during the run; null for
+    /// none.
     virtual const osg::StateSet* startRun() = 0;
     /// Called with the variant's program in use, before the leaf is drawn.
     virtual void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
@@ -54,10 +55,10 @@ public:
 /// A Group whose subgraph is drawn with surface functions instead of the fixed function.
 ///
 /// Under a cull traversal it collects the subgraph in a stage of its own and leaves one proxy a
-/// render bin in the bins of the view, so that the order among siblings stays; to every other visitor
-/// it is a plain group. The subgraph's StateSets are never written, state above the group and changes
-/// at run time count. Nested in another SurfaceGroup it is a plain group: the outermost draws.
-/// Requires GL 3.3 compatibility; below that it says so once and the fixed function draws.
+/// render bin in the bins of the view, so that the order among siblings stays; to every other
+/// visitor it is a plain group. The subgraph's StateSets are never written, state above the group
+/// and changes at run time count. Nested in another SurfaceGroup it is a plain group: the outermost
+/// draws. Requires GL 3.3 compatibility; below that it says so once and the fixed function draws.
 class OSGMULTIRENDER_EXPORT SurfaceGroup : public osg::Group, public Planned
 {
 public:
@@ -87,6 +88,8 @@ private:
     /// belong: at the root, so that no state of the subgraph is left to OSG when they are drawn.
     osgUtil::StateGraph& pushScope(osgUtil::CullVisitor& visitor);
     void setPlan(const osg::Camera* camera, Plan plan);
+    /// A program of the frame whose plan is set did not link.
+    void addFailure(const osg::Camera* camera);
     /// A StateSet of its own for each bin of proxies, so that they do not share StateGraphs.
     const osg::StateSet* getProxyStateSet(std::size_t bin) { return nthStateSet(_proxies, bin); }
     const osg::StateSet* nthStateSet(StateSets& stateSets, std::size_t index);
@@ -101,7 +104,7 @@ private:
         Plan plan;
     };
     std::vector<ViewPlan> _plans;
-    double _compiled = 0.0;            ///< Programs made for this group.
+    double _compiled = 0.0; ///< Programs made for this group.
 };
 
 } // namespace osgMultiRender

@@ -26,7 +26,8 @@ std::string shaderText(osg::Shader::Type type, const char* file, const char* fal
 std::string definesOf(const SurfaceKey& key)
 {
     std::ostringstream text;
-    const auto define = [&text](bool on, const char* name) {
+    const auto define = [&text](bool on, const char* name)
+    {
         if (on)
             text << "#define " << name << "\n";
     };
@@ -73,7 +74,8 @@ void writeTexCoord(std::ostream& text, unsigned int unit, const TextureKey& key)
                 "        vec4 generated = vec4(r.xy / m + 0.5, 0.0, 1.0);\n";
     else if (key.generated && key.generation == TextureKey::ReflectionMap)
         text << "        vec3 u = normalize(osgmr_eye.xyz);\n"
-                "        vec4 generated = vec4(u - 2.0 * osgmr_vNormal * dot(osgmr_vNormal, u), 1.0);\n";
+                "        vec4 generated = vec4(u - 2.0 * osgmr_vNormal * dot(osgmr_vNormal, u), "
+                "1.0);\n";
     else if (key.generated && key.generation == TextureKey::NormalMap)
         text << "        vec4 generated = vec4(osgmr_vNormal, 1.0);\n";
     else if (key.generated)
@@ -85,12 +87,15 @@ void writeTexCoord(std::ostream& text, unsigned int unit, const TextureKey& key)
             text << "        vec4 osgmr_eye4 = gl_ModelViewMatrix * gl_Vertex;\n";
         text << "        vec4 generated = vec4(";
         for (unsigned int i = 0; i < 4; ++i)
-            text << (i ? ", " : "") << "dot(" << from << ", " << plane << "STRQ"[i] << "[" << unit << "])";
+            text << (i ? ", " : "") << "dot(" << from << ", " << plane << "STRQ"[i] << "[" << unit
+                 << "])";
         text << ");\n";
     }
     for (unsigned int i = 0; i < 4; ++i)
         if (key.generated & (1u << i))
-            text << "        coord." << "xyzw"[i] << " = generated." << "xyzw"[i] << ";\n";
+            text << "        coord."
+                 << "xyzw"[i] << " = generated."
+                 << "xyzw"[i] << ";\n";
     text << "        gl_TexCoord[" << unit << "] = " << (key.matrix ? "gl_TextureMatrix[" : "");
     if (key.matrix)
         text << unit << "] * ";
@@ -124,7 +129,8 @@ void writeEnvironment(std::ostream& text, unsigned int unit, const TextureKey& k
     const std::string t = "t" + std::to_string(unit);
     const std::string constant = "gl_TextureEnvColor[" + std::to_string(unit) + "]";
     const bool hasColor = key.baseFormat != TextureKey::Alpha;
-    const bool hasAlpha = key.baseFormat != TextureKey::RGB && key.baseFormat != TextureKey::Luminance;
+    const bool hasAlpha =
+        key.baseFormat != TextureKey::RGB && key.baseFormat != TextureKey::Luminance;
     std::string rgb = "c.rgb", alpha = "c.a";
     switch (key.environment)
     {
@@ -257,8 +263,8 @@ SurfaceSource makeSurfaceSource(const SurfaceKey& key)
 {
     const std::string defines = definesOf(key);
     SurfaceSource source;
-    source.vertex = defines +
-                    shaderText(osg::Shader::VERTEX, "osgMultiRender/surface.vert", shaders::surface_vert);
+    source.vertex = defines + shaderText(osg::Shader::VERTEX, "osgMultiRender/surface.vert",
+                                         shaders::surface_vert);
     if (key.lighting == LightingMode::Vertex)
         source.vertex += lightsOf(key);
     source.vertex += texCoordsOf(key) + "void main()\n{\n    osgmr_vertex();\n}\n";

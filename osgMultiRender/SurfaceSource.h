@@ -9,18 +9,20 @@
 namespace osgMultiRender
 {
 
-/// GLSL texts that make the surface function of a key. Free of GL and of any scene: what a key gives
-/// can be printed and tested.
+/// GLSL texts that make the surface function of a key. Free of GL and of any scene: what a key
+/// gives can be printed and tested.
 struct SurfaceSource
 {
     std::string vertex;   ///< Defines osgmr_vertex() and main().
     std::string fragment; ///< Defines vec4 osgmr_surface(); no main.
 };
 
-/// "#version 450 compatibility\n" for the language version of a context, such as 4.5f; at least 3.30.
+/// "#version 450 compatibility\n" for the language version of a context, such as 4.5f; at
+/// least 3.30.
 OSGMULTIRENDER_EXPORT std::string glslVersionLine(float languageVersion);
 
-/// The surface function of `key`. Samplers are named osgmr_texture<unit>. The texts have no #version.
+/// The surface function of `key`. Samplers are named osgmr_texture<unit>. The texts have no
+/// #version.
 OSGMULTIRENDER_EXPORT SurfaceSource makeSurfaceSource(const SurfaceKey& key);
 
 } // namespace osgMultiRender

@@ -172,7 +172,8 @@ void SurfaceState::applyExtraLight(ExtraLights*& writable, unsigned int number, 
     light.overridden = (value & osg::StateAttribute::OVERRIDE) != 0;
 }
 
-SurfaceState::ExtraLight& SurfaceState::mentionExtraLight(ExtraLights*& writable, unsigned int number)
+SurfaceState::ExtraLight& SurfaceState::mentionExtraLight(ExtraLights*& writable,
+                                                          unsigned int number)
 {
     if (!writable)
     {
@@ -218,7 +219,11 @@ void SurfaceState::applyAttributes(const osg::StateSet& stateSet)
                 mentionExtraLight(extra, typeMember.second);
         }
         else if (int slot = slotOfAttribute(typeMember.first); slot >= 0)
+        {
             _attributes[slot].apply(pair);
+            if (slot == Program && isProtected(pair.second))
+                _programProtected = true;
+        }
     }
     const osg::StateSet::TextureAttributeList& units = stateSet.getTextureAttributeList();
     for (unsigned int unit = 0; unit < units.size() && unit < MaxTextureUnits; ++unit)

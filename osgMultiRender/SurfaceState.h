@@ -25,7 +25,7 @@ class OSGMULTIRENDER_EXPORT SurfaceState
 public:
     static constexpr unsigned int MaxTextureUnits = 4; ///< Units that the surface functions know.
     static constexpr unsigned int MaxGLLights = 8;     ///< Lights that the fixed function has.
-    static constexpr unsigned int MaxClipPlanes = 6;
+    static constexpr unsigned int MaxClipPlanes = 8;   ///< GL has at least 6.
 
     /// Modes that are tracked for all units together.
     enum Mode : std::uint32_t
@@ -38,7 +38,7 @@ public:
         AssemblyProgram = 1u << 5, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB.
         PointSprites = 1u << 6,    ///< osg::PointSprite sets it as a mode of all units.
         Light0 = 1u << 8,          ///< GL_LIGHT0 to GL_LIGHT7.
-        ClipPlane0 = 1u << 16      ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE5.
+        ClipPlane0 = 1u << 16      ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE7.
     };
 
     /// Modes that are tracked for each texture unit.
@@ -105,6 +105,9 @@ public:
     /// Whether two states switch the same lights above GL_LIGHT7 for sure (equal pointers).
     const void* getExtraLightsIdentity() const { return _extraLights.get(); }
 
+    /// Whether a StateSet of the path holds a Program with PROTECTED.
+    bool isProgramProtected() const { return _programProtected; }
+
     /// Whether a texture unit beyond MaxTextureUnits has a texture mode on.
     bool usesUnitsBeyond() const { return _unitsBeyond.on != 0; }
 
@@ -148,7 +151,8 @@ private:
     std::array<Slot, NumAttributes> _attributes;
     std::array<Slot, MaxGLLights> _lights;
     std::array<Unit, MaxTextureUnits> _units;
-    Modes _unitsBeyond; ///< NumTargets bits a unit, units 4 to 9.
+    bool _programProtected = false;
+    Modes _unitsBeyond;                              ///< NumTargets bits a unit, units 4 to 9.
     std::shared_ptr<const ExtraLights> _extraLights; ///< Sorted by number; shared until written.
 };
 

@@ -36,13 +36,17 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
     _program->addShader(vertex);
     _program->addShader(fragment);
     finish();
-    if (key.twoSided && key.lighting == LightingMode::Vertex)
-        _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE,
-                           osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+    // The fixed function ignores these modes, a program does not.
+    const bool twoSided = key.twoSided && key.lighting == LightingMode::Vertex;
+    _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE,
+                       (twoSided ? osg::StateAttribute::ON : osg::StateAttribute::OFF) |
+                           osg::StateAttribute::OVERRIDE);
+    _stateSet->setMode(GL_VERTEX_PROGRAM_POINT_SIZE,
+                       osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     for (unsigned int unit = 0; unit < key.textures.size(); ++unit)
         if (key.textures[unit].target)
-            _stateSet->addUniform(new osg::Uniform(
-                ("osgmr_texture" + std::to_string(unit)).c_str(), static_cast<int>(unit)));
+            _stateSet->addUniform(new osg::Uniform(("osgmr_texture" + std::to_string(unit)).c_str(),
+                                                   static_cast<int>(unit)));
     for (const auto& [sampler, unit] : snippet.samplers)
         _stateSet->addUniform(new osg::Uniform(sampler.c_str(), unit));
 }

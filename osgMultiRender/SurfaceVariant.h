@@ -38,7 +38,8 @@ public:
     /// Why there is no Program.
     const std::string& getError() const { return _error; }
 
-    /// Set by the draw thread when the program did not link; its leaves then show the fixed function.
+    /// Set by the draw thread when the program did not link; its leaves then show the fixed
+    /// function.
     std::atomic<bool> failed{false};
     /// Milliseconds of the first application, which compiles and links; 0 before it.
     std::atomic<double> compileMilliseconds{0.0};
@@ -82,8 +83,8 @@ private:
     SurfaceVariantCache() = default;
 
     mutable std::mutex _mutex;
-    std::unordered_map<
-        std::string, std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
+    std::unordered_map<std::string,
+                       std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
         _variants;
 };
 

@@ -10,11 +10,11 @@
 namespace osgMultiRender
 {
 
-/// Stands in for lights numbered 8 or above, which GL does not know: applying it does nothing. (Stock
-/// OSG hands such lights to GL, which answers GL_INVALID_ENUM.)
+/// Stands in for lights numbered 8 or above, which GL does not know: applying it does nothing.
+/// (Stock OSG hands such lights to GL, which answers GL_INVALID_ENUM.)
 ///
-/// In the list of a view's positioned attributes one object stands for all of them: osg::State looks
-/// at each attribute that was ever applied whenever it applies a StateSet.
+/// In the list of a view's positioned attributes one object stands for all of them: osg::State
+/// looks at each attribute that was ever applied whenever it applies a StateSet.
 class WithheldLights : public osg::StateAttribute
 {
 public:
@@ -36,8 +36,10 @@ public:
     int compare(const osg::StateAttribute& other) const override
     {
         COMPARE_StateAttribute_Types(WithheldLights, other)
-        COMPARE_StateAttribute_Parameter(_number)
-        return this == &other ? 0 : this < &other ? -1 : 1;
+                    COMPARE_StateAttribute_Parameter(_number) return this == &other
+            ? 0
+        : this < &other ? -1
+                        : 1;
     }
     void apply(osg::State&) const override {}
 

@@ -11,9 +11,6 @@ namespace
 {
 
 constexpr int maxCellsPerAxis = 256;
-/// Pairs of a light and a cell that a grid may list: 16 MB, and some tens of milliseconds to find
-/// them.
-constexpr double maxPairs = 4 << 20;
 
 /// About two cells a light, shared out along the axes by the box's extents.
 glm::ivec3 sizeFor(std::size_t lights, const glm::dvec3& extent)
@@ -81,9 +78,10 @@ struct Cells
         // Half a millionth of the box more, for a fragment that rounds into the next cell.
         const glm::dvec3 margin = 5e-7 * cell * glm::dvec3(size);
         const glm::dvec3 top = glm::dvec3(size - 1);
-        return CellRange{
-            glm::ivec3(glm::clamp(glm::floor((low - margin - origin) / cell), glm::dvec3(0.0), top)),
-            glm::ivec3(glm::clamp(glm::floor((high + margin - origin) / cell), glm::dvec3(0.0), top))};
+        return CellRange{glm::ivec3(glm::clamp(glm::floor((low - margin - origin) / cell),
+                                               glm::dvec3(0.0), top)),
+                         glm::ivec3(glm::clamp(glm::floor((high + margin - origin) / cell),
+                                               glm::dvec3(0.0), top))};
     }
 
     /// Whether the light is better listed once for all cells.
@@ -111,7 +109,7 @@ struct Cells
 /// Cells for the lights: fewer where each light reaches many, so that lists and time stay bounded.
 Cells cellsFor(const std::vector<EyeLight>& all, const std::vector<double>& reach,
                const std::vector<std::uint32_t>& lights, const glm::dvec3& boxMin,
-               const glm::dvec3& extent)
+               const glm::dvec3& extent, double maxPairs)
 {
     glm::ivec3 size = sizeFor(lights.size(), extent);
     for (;;)
@@ -132,9 +130,9 @@ Cells cellsFor(const std::vector<EyeLight>& all, const std::vector<double>& reac
 
 LightGrid::LightGrid(const std::vector<EyeLight>& all, const std::vector<double>& reach,
                      const std::vector<std::uint32_t>& lights, const glm::dvec3& boxMin,
-                     const glm::dvec3& boxMax)
+                     const glm::dvec3& boxMax, double maxPairs)
 {
-    const Cells cells = cellsFor(all, reach, lights, boxMin, boxMax - boxMin);
+    const Cells cells = cellsFor(all, reach, lights, boxMin, boxMax - boxMin, maxPairs);
     _origin = cells.origin;
     _cell = cells.cell;
     _size = cells.size;

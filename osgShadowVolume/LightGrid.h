@@ -12,14 +12,19 @@ namespace osgShadowVolume
 /// A regular grid over a box; each cell lists the lights that reach it.
 ///
 /// Free of OSG and GL. Lights and box are in one frame of the caller's choice. A fragment finds its
-/// cell from its position alone, so one grid serves any projection. Lights that reach more than a share of all cells are listed once for the whole grid.
+/// cell from its position alone, so one grid serves any projection. Lights that reach more than a
+/// share of all cells are listed once for the whole grid.
 class OSGSHADOWVOLUME_EXPORT LightGrid
 {
 public:
+    /// Pairs of a light and a cell that a grid may list: 16 MB, and some tens of milliseconds to
+    /// find them.
+    static constexpr double MaxPairs = 4 << 20;
+
     /// `lights` are indices into `all`, `reach` is parallel to `all`. The box must be finite.
     LightGrid(const std::vector<EyeLight>& all, const std::vector<double>& reach,
               const std::vector<std::uint32_t>& lights, const glm::dvec3& boxMin,
-              const glm::dvec3& boxMax);
+              const glm::dvec3& boxMax, double maxPairs = MaxPairs);
 
     glm::dvec3 getOrigin() const { return _origin; }
     glm::dvec3 getCellSize() const { return _cell; }

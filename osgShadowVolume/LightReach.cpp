@@ -32,7 +32,7 @@ double reachOf(const EyeLight& light, double threshold)
     if (bright == 0.0)
         return 0.0;
     // Written so that NaN in any parameter means "reaches everything".
-    if (light.type == EyeLight::Directional || !(threshold > 0.0) ||
+    if (light.isDirectional() || !(threshold > 0.0) ||
         !(light.linearAttenuation >= 0.0f) || !(light.quadraticAttenuation >= 0.0f))
         return infinity;
     const double a = light.quadraticAttenuation, b = light.linearAttenuation;
@@ -52,7 +52,7 @@ bool reaches(const EyeLight& light, double reach, const glm::dvec3& center, doub
 {
     if (reach == 0.0)
         return false;
-    if (light.type == EyeLight::Directional)
+    if (light.isDirectional())
         return true;
     const glm::dvec3 d = center - light.position;
     const double distance = glm::length(d);
@@ -80,7 +80,7 @@ double thresholdFor(const std::vector<EyeLight>& lights, const std::vector<glm::
     {
         added.clear();
         for (std::size_t i = 0; i < lights.size(); i += step)
-            if (lights[i].type != EyeLight::Directional)
+            if (!lights[i].isDirectional())
                 added.push_back(brightness(lights[i]) *
                                 attenuationAt(lights[i], glm::length(point - lights[i].position)));
         std::sort(added.begin(), added.end());

@@ -19,13 +19,17 @@ struct EyeLight
     {
         Directional,
         Point,
-        Spot
+        Spot,
+        DirectionalSpot ///< At infinity, with a cone: one factor for the whole scene.
     };
 
+    /// Whether it lies at infinity.
+    bool isDirectional() const { return type == Directional || type == DirectionalSpot; }
+
     Type type = Directional;
-    int number = 0;             ///< LightSource number, GL_LIGHT0 + number.
-    std::string name;           ///< For plans; may be empty.
-    glm::dvec3 position{0.0};   ///< Directional: the unit vector towards the light.
+    int number = 0;           ///< LightSource number, GL_LIGHT0 + number.
+    std::string name;         ///< For plans; may be empty.
+    glm::dvec3 position{0.0}; ///< Directional: the unit vector towards the light.
     glm::vec3 ambient{0.0f};
     glm::vec3 diffuse{0.0f};
     glm::vec3 specular{0.0f};
@@ -37,19 +41,22 @@ struct EyeLight
     float spotExponent = 0.0f;
 };
 
-/// 1 / (c + l d + q d²); a denominator of 0 or less gives 1e30, the largest light that stays finite.
+/// 1 / (c + l d + q d²); a denominator of 0 or less gives 1e30, the largest light that stays
+/// finite.
 OSGSHADOWVOLUME_EXPORT double attenuationAt(const EyeLight& light, double distance);
 
-/// The most that the light changes a channel of a surface with materials up to 1, before attenuation.
-/// Negative intensities count by their size.
+/// The most that the light changes a channel of a surface with materials up to 1, before
+/// attenuation. Negative intensities count by their size.
 OSGSHADOWVOLUME_EXPORT double brightness(const EyeLight& light);
 
-/// Distance beyond which the light changes any channel by less than `threshold`; infinity where there
-/// is none (directional lights, no attenuation, threshold 0), 0 for a light that never reaches it.
+/// Distance beyond which the light changes any channel by less than `threshold`; infinity where
+/// there is none (directional lights, no attenuation, threshold 0), 0 for a light that never
+/// reaches it.
 OSGSHADOWVOLUME_EXPORT double reachOf(const EyeLight& light, double threshold);
 
 /// Whether a light with this reach may light a point of the sphere. Never false for one that does:
-/// the cone of a spot is tested against the sphere as a whole. A spot lights nothing outside its cone.
+/// the cone of a spot is tested against the sphere as a whole. A spot lights nothing outside its
+/// cone.
 OSGSHADOWVOLUME_EXPORT bool reaches(const EyeLight& light, double reach, const glm::dvec3& center,
                                     double radius);
 

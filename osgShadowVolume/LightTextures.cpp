@@ -58,14 +58,32 @@ void update(osg::Texture2D& texture, int width, int rows, GLint internalFormat, 
 
 void packLight(const EyeLight& light, float* to)
 {
-    const float cosine = static_cast<float>(std::cos(glm::radians(double(light.spotCutoffDegrees))));
-    const float values[FloatsPerLight] = {
-        float(light.position.x), float(light.position.y), float(light.position.z), float(light.type),
-        light.ambient.x, light.ambient.y, light.ambient.z, light.constantAttenuation,
-        light.diffuse.x, light.diffuse.y, light.diffuse.z, light.linearAttenuation,
-        light.specular.x, light.specular.y, light.specular.z, light.quadraticAttenuation,
-        float(light.spotDirection.x), float(light.spotDirection.y), float(light.spotDirection.z),
-        cosine, light.spotExponent, 0.0f, 0.0f, 0.0f};
+    const float cosine =
+        static_cast<float>(std::cos(glm::radians(double(light.spotCutoffDegrees))));
+    const float values[FloatsPerLight] = {float(light.position.x),
+                                          float(light.position.y),
+                                          float(light.position.z),
+                                          float(light.type),
+                                          light.ambient.x,
+                                          light.ambient.y,
+                                          light.ambient.z,
+                                          light.constantAttenuation,
+                                          light.diffuse.x,
+                                          light.diffuse.y,
+                                          light.diffuse.z,
+                                          light.linearAttenuation,
+                                          light.specular.x,
+                                          light.specular.y,
+                                          light.specular.z,
+                                          light.quadraticAttenuation,
+                                          float(light.spotDirection.x),
+                                          float(light.spotDirection.y),
+                                          float(light.spotDirection.z),
+                                          cosine,
+                                          light.spotExponent,
+                                          0.0f,
+                                          0.0f,
+                                          0.0f};
     std::memcpy(to, values, sizeof(values));
 }
 
@@ -83,19 +101,18 @@ void LitScene::LightTextures::Context::set(const LitPass* pass,
 {
     _pass = pass;
     // Rows are whole: the tail of the last one stays as it was, and nothing reads it.
-    const int lightRows = std::max<int>(1, int((eyeLights.size() + lightsPerRow - 1) / lightsPerRow));
-    const int lightsInRow = lightRows > 1 ? lightsPerRow : std::max<int>(1, int(eyeLights.size()));
-    std::vector<float> data(std::size_t(lightRows) * lightsInRow * FloatsPerLight, 0.0f);
+    const int lightRows =
+        std::max<int>(1, int((eyeLights.size() + lightsPerRow - 1) / lightsPerRow));
+    std::vector<float> data(std::size_t(lightRows) * lightsPerRow * FloatsPerLight, 0.0f);
     for (std::size_t i = 0; i < eyeLights.size(); ++i)
         packLight(*eyeLights[i], &data[i * FloatsPerLight]);
-    update(*lights, lightsInRow * texelsPerLight, lightRows, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT,
+    update(*lights, lightsPerRow * texelsPerLight, lightRows, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT,
            data.data(), data.size() * sizeof(float));
 
     const int listRows = std::max<int>(1, int((list.size() + listPerRow - 1) / listPerRow));
-    const int width = listRows > 1 ? listPerRow : std::max<int>(1, int(list.size()));
     std::vector<std::int32_t> padded(list);
-    padded.resize(std::size_t(listRows) * width, 0);
-    update(*lists, width, listRows, GL_R32I, GL_RED_INTEGER_EXT, GL_INT, padded.data(),
+    padded.resize(std::size_t(listRows) * listPerRow, 0);
+    update(*lists, listPerRow, listRows, GL_R32I, GL_RED_INTEGER_EXT, GL_INT, padded.data(),
            padded.size() * sizeof(std::int32_t));
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/LitPass.h>
 
+#include <osgShadowVolume/EyeLights.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
@@ -13,7 +14,6 @@ namespace osgShadowVolume
 {
 
 using osgMultiRender::LightingMode;
-using osgMultiRender::PlanEntry;
 using osgMultiRender::SurfaceKey;
 using osgMultiRender::SurfaceSnippet;
 using osgMultiRender::SurfaceState;
@@ -23,8 +23,7 @@ namespace
 
 /// Lights of a state up to which each leaf is tested for those that reach it; more go to a grid.
 constexpr std::size_t maxListed = 32;
-constexpr std::size_t maxUniform = 8;     ///< Lights up to which a leaf has them as uniforms.
-constexpr std::size_t maxPlanned = 64;    ///< Lights that a plan names one by one.
+constexpr std::size_t maxUniform = 8; ///< Lights up to which a leaf has them as uniforms.
 
 /// Bits of SurfaceKey::kit. Uniform lights: their number from bit 4, two bits for the type of each
 /// from bit 8.
@@ -41,54 +40,6 @@ std::uint32_t numberOfUniformLights(std::uint32_t kit)
     return (kit >> NumberShift) & 15u;
 }
 
-glm::vec3 toGlm(const osg::Vec4& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
-glm::dvec3 unit(const osg::Vec3d& v)
-{
-    const double length = v.length();
-    return length > 0.0 ? glm::dvec3(v.x(), v.y(), v.z()) / length : glm::dvec3(0.0);
-}
-
-EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
-{
-    EyeLight eye;
-    eye.number = light.getLightNum();
-    eye.name = light.getName();
-    eye.ambient = toGlm(light.getAmbient());
-    eye.diffuse = toGlm(light.getDiffuse());
-    eye.specular = toGlm(light.getSpecular());
-    eye.constantAttenuation = light.getConstantAttenuation();
-    eye.linearAttenuation = light.getLinearAttenuation();
-    eye.quadraticAttenuation = light.getQuadraticAttenuation();
-    const osg::Matrix identity;
-    const osg::Matrix& m = matrix ? *matrix : identity;
-    const osg::Vec4d position = osg::Vec4d(light.getPosition()) * m;
-    if (light.getPosition().w() == 0.0f)
-    {
-        eye.type = EyeLight::Directional;
-        eye.position = unit(osg::Vec3d(position.x(), position.y(), position.z()));
-        return eye;
-    }
-    eye.type = light.getSpotCutoff() == 180.0f ? EyeLight::Point : EyeLight::Spot;
-    eye.position = glm::dvec3(position.x(), position.y(), position.z()) / position.w();
-    eye.spotDirection = unit(osg::Matrix::transform3x3(osg::Vec3d(light.getDirection()), m));
-    eye.spotCutoffDegrees = light.getSpotCutoff();
-    eye.spotExponent = light.getSpotExponent();
-    return eye;
-}
-
-std::string subjectOf(const EyeLight& light)
-{
-    static const char* const types[] = {"directional", "point", "spot"};
-    std::string subject = "light " + std::to_string(light.number);
-    if (!light.name.empty())
-        subject += " '" + light.name + "'";
-    return subject + " (" + types[light.type] + ")";
-}
-
 /// Low-discrepancy numbers in [0, 1), so that few samples cover boxes evenly.
 double radicalInverse(unsigned int i, unsigned int base)
 {
@@ -101,12 +52,11 @@ double radicalInverse(unsigned int i, unsigned int base)
 /// The most that a matrix stretches a length.
 double stretchOf(const osg::Matrixd& m)
 {
-    const osg::Vec3d rows[3] = {{m(0, 0), m(0, 1), m(0, 2)},
-                                {m(1, 0), m(1, 1), m(1, 2)},
-                                {m(2, 0), m(2, 1), m(2, 2)}};
+    const osg::Vec3d rows[3] = {
+        {m(0, 0), m(0, 1), m(0, 2)}, {m(1, 0), m(1, 1), m(1, 2)}, {m(2, 0), m(2, 1), m(2, 2)}};
     const double a = rows[0].length2(), b = rows[1].length2(), c = rows[2].length2();
-    const double skew = std::max({std::abs(rows[0] * rows[1]), std::abs(rows[1] * rows[2]),
-                                  std::abs(rows[2] * rows[0])});
+    const double skew = std::max(
+        {std::abs(rows[0] * rows[1]), std::abs(rows[1] * rows[2]), std::abs(rows[2] * rows[0])});
     // Rotations and scalings have rows at right angles; for others the Frobenius norm is a bound.
     const double largest = std::max({a, b, c});
     return std::sqrt(skew <= 1e-6 * largest ? largest * (1.0 + 4e-6) : a + b + c);
@@ -132,7 +82,8 @@ bool sphereOf(const osgUtil::RenderLeaf& leaf, glm::dvec3& center, double& radiu
 } // namespace
 
 LitPass::LitPass(const LitScene& scene)
-    : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope())
+    : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope()),
+      _tolerance(scene.getLightTolerance())
 {
 }
 
@@ -154,18 +105,20 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
 {
     std::map<int, std::size_t> lastOf;
     std::vector<EyeLight> all;
-    frame.forEachLight([&](const osg::Light& light, const osg::Matrix* matrix) {
-        if (_lightScope == LitScene::LightScope::MODES)
+    frame.forEachLight(
+        [&](const osg::Light& light, const osg::Matrix* matrix)
         {
-            const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
-            if (!isNew) // GL keeps the last one of a number.
+            if (_lightScope == LitScene::LightScope::MODES)
             {
-                all[found->second] = toEye(light, matrix);
-                return;
+                const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
+                if (!isNew) // GL keeps the last one of a number.
+                {
+                    all[found->second] = toEye(light, matrix);
+                    return;
+                }
             }
-        }
-        all.push_back(toEye(light, matrix));
-    });
+            all.push_back(toEye(light, matrix));
+        });
     if (_lighting != LitScene::Lighting::PIXEL)
     {
         for (const EyeLight& light : all)
@@ -183,17 +136,18 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
         return;
     }
     chooseGridAxes(frame);
-    const osg::BoundingBoxd box = frame.getBounds(_toGrid, _unbounded);
-    if (!box.valid() && !_unbounded)
-        _unbounded = true;
+    bool unbounded = false;
+    const osg::BoundingBoxd box = frame.getBounds(_toGrid, unbounded);
+    _hasBox = box.valid();
     _boxMin = glm::dvec3(box.xMin(), box.yMin(), box.zMin());
     _boxMax = glm::dvec3(box.xMax(), box.yMax(), box.zMax());
-    _unbounded = _unbounded || !std::isfinite(glm::length(_boxMax - _boxMin));
+    _hasBox = _hasBox && std::isfinite(glm::length(_boxMax - _boxMin));
+    const bool everythingBounded = _hasBox && !unbounded;
     const osg::Vec3d middle = osg::Matrixd::inverse(_toGrid).preMult(box.center());
     const glm::dvec3 center(middle.x(), middle.y(), middle.z());
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
     // Half of the tolerance is for what the whole view leaves out, half for what a leaf does.
-    const double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, all.size());
+    const double threshold = 0.5 * _tolerance / std::max<std::size_t>(1, all.size());
     for (const EyeLight& light : all)
     {
         if (!isUsable(light))
@@ -201,20 +155,21 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
         const double reach = reachOf(light, threshold);
         if (brightness(light) == 0.0)
             _dropped.push_back({light, "it is black"});
-        else if (!_unbounded && !reaches(light, reach, center, radius))
+        else if (everythingBounded && !reaches(light, reach, center, radius))
             _dropped.push_back({light, "it reaches nothing in view"});
         else
             _lights.push_back(light);
     }
     _used.assign(_lights.size(), false);
-    if (_lights.size() > maxListed && !_unbounded)
+    if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)
         {
             const glm::dvec3 p =
                 _boxMin + (_boxMax - _boxMin) * glm::dvec3(radicalInverse(i + 1, 2),
                                                            radicalInverse(i + 1, 3),
                                                            radicalInverse(i + 1, 5));
-            const osg::Vec3d eye = osg::Matrixd::inverse(_toGrid).preMult(osg::Vec3d(p.x, p.y, p.z));
+            const osg::Vec3d eye =
+                osg::Matrixd::inverse(_toGrid).preMult(osg::Vec3d(p.x, p.y, p.z));
             _points.emplace_back(eye.x(), eye.y(), eye.z());
         }
 }
@@ -246,7 +201,8 @@ bool LitPass::isUsable(const EyeLight& light)
                              double(light.quadraticAttenuation),
                              double(light.spotCutoffDegrees),
                              double(light.spotExponent)};
-    if (std::all_of(std::begin(values), std::end(values), [](double x) { return std::isfinite(x); }))
+    if (std::all_of(std::begin(values), std::end(values),
+                    [](double x) { return std::isfinite(x); }))
         return true;
     _dropped.push_back({light, "a parameter of it is infinite or not a number"});
     return false;
@@ -254,13 +210,13 @@ bool LitPass::isUsable(const EyeLight& light)
 
 void LitPass::fillReach(LightSet& set) const
 {
-    double threshold = 0.5 * _scene.getLightTolerance() / std::max<std::size_t>(1, set.lights.size());
+    double threshold = 0.5 * _tolerance / std::max<std::size_t>(1, set.lights.size());
     if (set.lights.size() > maxListed)
     {
         std::vector<EyeLight> lights;
         for (std::uint32_t light : set.lights)
             lights.push_back(_lights[light]);
-        threshold = thresholdFor(lights, _points, 0.5 * _scene.getLightTolerance());
+        threshold = thresholdFor(lights, _points, 0.5 * _tolerance);
     }
     set.reach.assign(_lights.size(), 0.0);
     for (std::uint32_t light : set.lights)
@@ -283,11 +239,14 @@ LitPass::LightSet& LitPass::setOf(const SurfaceState& state)
             _lights[i].number >= int(osgMultiRender::FirstUnscopedLight))
             set.lights.push_back(i);
     fillReach(set);
-    set.reachesAll = std::all_of(set.lights.begin(), set.lights.end(), [&](std::uint32_t light) {
-        return !std::isfinite(set.reach[light]) && (_lights[light].type != EyeLight::Spot ||
-                                                    _lights[light].spotCutoffDegrees >= 90.0f);
-    });
-    if (set.lights.size() > maxListed && !_unbounded)
+    set.reachesAll = std::all_of(set.lights.begin(), set.lights.end(),
+                                 [&](std::uint32_t light)
+                                 {
+                                     return !std::isfinite(set.reach[light]) &&
+                                            (_lights[light].type != EyeLight::Spot ||
+                                             _lights[light].spotCutoffDegrees >= 90.0f);
+                                 });
+    if (set.lights.size() > maxListed && _hasBox)
         makeGrid(set);
     return set;
 }
@@ -300,7 +259,9 @@ void LitPass::makeGrid(LightSet& set)
         light.position = toGrid(light.position);
         light.spotDirection = toGrid(light.spotDirection);
     }
-    set.grid.emplace(lights, set.reach, set.lights, _boxMin, _boxMax);
+    // All grids of a frame share a texture.
+    const double maxPairs = LightGrid::MaxPairs / double(++_grids);
+    set.grid.emplace(lights, set.reach, set.lights, _boxMin, _boxMax, maxPairs);
     List list;
     list.lights = set.grid->getEverywhere();
     list.grid = &set;
@@ -330,52 +291,54 @@ void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& lea
                        std::uint32_t& number)
 {
     LightSet& set = setOf(state);
-    if (set.grid)
-    {
-        key.kit = Gridded;
-        number = set.gridNumber;
-        return;
-    }
     if (set.forAll)
     {
         key.kit = set.forAll->kit;
         number = set.forAll->number;
         return;
     }
-    std::vector<std::uint32_t> reaching = set.lights;
     glm::dvec3 center;
     double radius = 0.0;
-    if (!reaching.empty() && !set.reachesAll && sphereOf(leaf, center, radius))
-        reaching.erase(std::remove_if(reaching.begin(), reaching.end(),
-                                      [&](std::uint32_t light) {
-                                          return !reaches(_lights[light], set.reach[light], center,
-                                                          radius);
-                                      }),
-                       reaching.end());
+    const bool isInGrid = _hasBox && sphereOf(leaf, center, radius);
+    if (isInGrid && set.lights.size() > maxListed)
+    {
+        key.kit = Gridded;
+        number = set.gridNumber;
+        return;
+    }
+    std::vector<std::uint32_t> reaching = set.lights;
+    if (isInGrid && !set.reachesAll)
+        reaching.erase(
+            std::remove_if(reaching.begin(), reaching.end(),
+                           [&](std::uint32_t light)
+                           { return !reaches(_lights[light], set.reach[light], center, radius); }),
+            reaching.end());
     if (reaching.empty())
         return; // a program without lights
     // Equal types side by side, so that few orders of the same lights make variants.
-    std::stable_sort(reaching.begin(), reaching.end(), [this](std::uint32_t a, std::uint32_t b) {
-        return _lights[a].type < _lights[b].type;
-    });
+    std::stable_sort(reaching.begin(), reaching.end(),
+                     [this](std::uint32_t a, std::uint32_t b)
+                     { return _lights[a].type < _lights[b].type; });
     if (reaching.size() <= maxUniform)
     {
         key.kit = static_cast<std::uint32_t>(reaching.size()) << NumberShift;
         for (std::size_t i = 0; i < reaching.size(); ++i)
             key.kit |= std::uint32_t(_lights[reaching[i]].type) << (TypesShift + 2 * i);
     }
-    else if (!_unbounded)
+    else if (isInGrid)
     {
         // Of lights that reach the leaf, few may reach a pixel.
-        makeGrid(set);
+        if (!set.grid)
+            makeGrid(set);
         key.kit = Gridded;
         number = set.gridNumber;
         return;
     }
     else
         key.kit = Listed;
+    const bool fewForAll = set.reachesAll && reaching.size() <= maxUniform;
     number = listOf(std::move(reaching));
-    if (set.reachesAll)
+    if (fewForAll)
         set.forAll = LightSet::ForAll{key.kit, number};
 }
 
@@ -516,50 +479,14 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     float columns[9];
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
-            columns[3 * column + row] = float(_toGrid(column, row)); // osg's rows are GLSL's columns
+            columns[3 * column + row] =
+                float(_toGrid(column, row)); // osg's rows are GLSL's columns
     gl->glUniformMatrix3fv(program.getUniformLocation(axes), 1, GL_FALSE, columns);
     gl->glUniform3f(program.getUniformLocation(origin), float(o.x), float(o.y), float(o.z));
     gl->glUniform3f(program.getUniformLocation(scale), float(1.0 / c.x), float(1.0 / c.y),
                     float(1.0 / c.z));
     gl->glUniform3i(program.getUniformLocation(size), n.x, n.y, n.z);
     gl->glUniform1i(program.getUniformLocation(cells), list.gridCells);
-}
-
-void LitPass::fillPlan(osgMultiRender::Plan& plan) const
-{
-    std::size_t drawn = 0, dropped = _dropped.size(), named = 0;
-    const auto add = [&](const EyeLight& light, PlanEntry::Decision decision,
-                         const std::string& reason) {
-        if (named++ < maxPlanned)
-            plan.entries.push_back({subjectOf(light), decision, reason});
-    };
-    for (const Dropped& light : _dropped)
-        add(light.light, PlanEntry::Decision::Dropped, light.reason);
-    for (std::size_t i = 0; i < _lights.size(); ++i)
-    {
-        if (_used[i])
-        {
-            ++drawn;
-            add(_lights[i], PlanEntry::Decision::Folded, "in the one pass of all unshadowed lights");
-        }
-        else
-        {
-            ++dropped;
-            add(_lights[i], PlanEntry::Decision::Dropped,
-                "no drawable in view has it on and in reach");
-        }
-    }
-    if (named > maxPlanned)
-        plan.entries.push_back({std::to_string(named - maxPlanned) + " more lights",
-                                PlanEntry::Decision::Folded, "see the counts"});
-    plan.counts["lights.drawn"] = static_cast<double>(drawn);
-    plan.counts["lights.dropped"] = static_cast<double>(dropped);
-    plan.counts["lights.grids"] = static_cast<double>(
-        std::count_if(_sets.begin(), _sets.end(), [](const auto& s) { return s.second.grid.has_value(); }));
-    plan.counts["textureBytes"] =
-        _textures ? double(_textures->lights->getImage()->getTotalSizeInBytes() +
-                           _textures->lists->getImage()->getTotalSizeInBytes())
-                  : 0.0;
 }
 
 } // namespace osgShadowVolume

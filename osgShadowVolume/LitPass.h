@@ -14,9 +14,9 @@ namespace osgShadowVolume
 
 /// Lights the leaves of a LitScene in one view of one frame.
 ///
-/// Each leaf gets the list of the lights that reach it, as uniforms where they are few; where a state
-/// has many lights, its leaves share a grid instead. What is left out adds less than half a step of 8
-/// bits to any pixel.
+/// Each leaf gets the list of the lights that reach it, as uniforms where they are few; where a
+/// state has many lights, its leaves share a grid instead. What is left out adds less than half a
+/// step of 8 bits to any pixel.
 class LitPass : public osgMultiRender::SurfacePass
 {
 public:
@@ -27,7 +27,8 @@ public:
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
     void end(osg::RenderInfo& renderInfo) override;
-    osgMultiRender::SurfaceSnippet makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
+    osgMultiRender::SurfaceSnippet
+    makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
     const osg::StateSet* startRun() override;
     void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                std::uint32_t number) override;
@@ -76,15 +77,18 @@ private:
     const LitScene& _scene;
     const LitScene::Lighting _lighting;     ///< Of the cull; the update may change the scene's.
     const LitScene::LightScope _lightScope; ///< Likewise.
+    const double _tolerance;
     std::vector<EyeLight> _lights;
     std::vector<bool> _used;
     std::vector<Dropped> _dropped;
     std::vector<glm::dvec3> _points; ///< Samples of what is in view.
     /// From eye coordinates to axes along those of the world, where floors and walls are flat, so
-    /// that a grid spends no cells on a tilted box's empty corners. A rotation; the origin is the eye.
+    /// that a grid spends no cells on a tilted box's empty corners. A rotation; the origin is the
+    /// eye.
     osg::Matrixd _toGrid;
     glm::dvec3 _boxMin{0.0}, _boxMax{0.0}; ///< Of what is in view, along these axes.
-    bool _unbounded = false;
+    bool _hasBox = false; ///< The box is finite; leaves without a bound are not in it.
+    unsigned int _grids = 0;
     std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
     std::vector<List> _lists;

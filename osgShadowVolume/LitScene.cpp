@@ -11,7 +11,8 @@ LitScene::LitScene() : _textures(std::make_unique<LightTextures>()) {}
 
 LitScene::LitScene(const LitScene& other, const osg::CopyOp& copyop)
     : osgMultiRender::SurfaceGroup(other, copyop), _lighting(other._lighting),
-      _lightScope(other._lightScope), _lightTolerance(other._lightTolerance), _textures(std::make_unique<LightTextures>())
+      _lightScope(other._lightScope), _lightTolerance(other._lightTolerance),
+      _textures(std::make_unique<LightTextures>())
 {
 }
 

@@ -15,10 +15,10 @@ namespace osgShadowVolume
 /// Lights are the LightSources of the view, inside and outside of the group, and its headlight. A
 /// light lights a drawable where its mode GL_LIGHT0 + number is on, as in OSG; numbers above 7 are
 /// known too and kept from GL. Lights that reach nothing in view are dropped, and the plan says so.
-/// The lighting equation is the fixed function's (OpenGL 2.1 specification, section 2.14.1), with the
-/// interpolated normal made unit. A zero normal gets ambient light only; an attenuation with a zero
-/// denominator saturates.
-/// Requires GL 3.3 compatibility; below that the model keeps its fixed-function look.
+/// The lighting equation is the fixed function's (OpenGL 2.1 specification, section 2.14.1), with
+/// the interpolated normal made unit. A zero normal gets ambient light only; an attenuation with a
+/// zero denominator saturates. Requires GL 3.3 compatibility; below that the model keeps its
+/// fixed-function look.
 class OSGSHADOWVOLUME_EXPORT LitScene : public osgMultiRender::SurfaceGroup
 {
 public:
@@ -44,9 +44,9 @@ public:
     void setLightScope(LightScope scope) { _lightScope = scope; }
     LightScope getLightScope() const { return _lightScope; }
 
-    /// The most that all lights which are left out because of their distance may add to a channel of a
-    /// pixel, 1 being full scale. By default 0.5 / 255, half a step of 8 bits; 0 leaves out nothing, more
-    /// trades error for time where lights are many. Materials count as white.
+    /// The most that all lights which are left out because of their distance may add to a channel
+    /// of a pixel, 1 being full scale. By default 0.5 / 255, half a step of 8 bits; 0 leaves out
+    /// nothing, more trades error for time where lights are many. Materials count as white.
     void setLightTolerance(double tolerance) { _lightTolerance = tolerance; }
     double getLightTolerance() const { return _lightTolerance; }
 

@@ -166,8 +166,8 @@ void Capture::countErrors() const
         if (code == GL_NO_ERROR)
             return;
         ++_glErrors;
-        OSG_WARN << "osgrender: OpenGL error 0x" << std::hex << code << std::dec
-                 << " in the frame" << std::endl;
+        OSG_WARN << "osgrender: OpenGL error 0x" << std::hex << code << std::dec << " in the frame"
+                 << std::endl;
     }
 }
 

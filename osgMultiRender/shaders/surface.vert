@@ -18,12 +18,12 @@ void osgmr_lights(vec3 normal, float shininess);
 vec3 osgmr_ambientLight, osgmr_diffuseLight, osgmr_specularLight;
 
 // One light of GL's own, OpenGL 2.1 specification, section 2.14.1. type: 1 directional, 2 point,
-// 3 spot.
+// 3 spot, 4 directional with a cone.
 void osgmr_addLight(gl_LightSourceParameters light, int type, vec3 normal, float shininess)
 {
     vec3 toLight;
     float attenuation = 1.0;
-    if (type == 1)
+    if (type == 1 || type == 4)
         toLight = normalize(light.position.xyz);
     else
     {
@@ -32,12 +32,12 @@ void osgmr_addLight(gl_LightSourceParameters light, int type, vec3 normal, float
         toLight = distance > 0.0 ? d / distance : vec3(0.0);
         attenuation = 1.0 / (light.constantAttenuation + distance *
                              (light.linearAttenuation + light.quadraticAttenuation * distance));
-        if (type == 3)
-        {
-            float c = dot(-toLight, normalize(light.spotDirection));
-            attenuation *= c < light.spotCosCutoff ? 0.0
-                           : light.spotExponent == 0.0 ? 1.0 : pow(max(c, 0.0), light.spotExponent);
-        }
+    }
+    if (type >= 3)
+    {
+        float c = dot(-toLight, normalize(light.spotDirection));
+        attenuation *= c < light.spotCosCutoff ? 0.0
+                       : light.spotExponent == 0.0 ? 1.0 : pow(max(c, 0.0), light.spotExponent);
     }
     float nl = dot(normal, toLight);
     osgmr_ambientLight += attenuation * light.ambient.rgb;
@@ -96,7 +96,11 @@ void osgmr_vertex()
 #endif
 #ifdef OSGMR_NORMALS
     osgmr_vNormal = gl_NormalMatrix * gl_Normal;
-#if defined(OSGMR_NORMALIZE)
+#if defined(OSGMR_NORMALIZE) && defined(OSGMR_LIGHTING_PIXEL)
+    // A zero normal stays zero: NaN would spread over its triangles.
+    float size = length(osgmr_vNormal);
+    osgmr_vNormal = size > 0.0 ? osgmr_vNormal / size : vec3(0.0);
+#elif defined(OSGMR_NORMALIZE)
     osgmr_vNormal = normalize(osgmr_vNormal);
 #elif defined(OSGMR_RESCALE)
     osgmr_vNormal *= gl_NormalScale;

@@ -13,11 +13,12 @@ namespace osgHeadless
 namespace
 {
 
-/// OSG 3.6 takes any function pointer for support of this extension, and libglvnd gives one for every
-/// name; multisampled framebuffer objects of cameras would be incomplete.
+/// OSG 3.6 takes any function pointer for support of this extension, and libglvnd gives one for
+/// every name; multisampled framebuffer objects of cameras would be incomplete.
 void dropUnsupportedCoverage(osg::State& state)
 {
-    if (!osg::isGLExtensionSupported(state.getContextID(), "GL_NV_framebuffer_multisample_coverage"))
+    if (!osg::isGLExtensionSupported(state.getContextID(),
+                                     "GL_NV_framebuffer_multisample_coverage"))
     {
         osg::GLExtensions::Get(state.getContextID(), true)
             ->glRenderbufferStorageMultisampleCoverageNV = nullptr;

@@ -17,9 +17,10 @@ public:
         supportsOption("shadowvolume.lighting=pixel|vertex|off",
                        "Where light is evaluated: per pixel by any number of lights (the default), "
                        "per vertex by GL's eight as the fixed function does, or nowhere");
-        supportsOption("shadowvolume.lights=modes|all",
-                       "Which LightSources light a drawable: those whose GL_LIGHTn mode is on there "
-                       "(the default, as in OSG), or all of the view");
+        supportsOption(
+            "shadowvolume.lights=modes|all",
+            "Which LightSources light a drawable: those whose GL_LIGHTn mode is on there "
+            "(the default, as in OSG), or all of the view");
         supportsOption("shadowvolume.tolerance=<0..1>",
                        "The most that all lights left out because of their distance may add to a "
                        "pixel (0.00196, half a step of 8 bits)");

@@ -1,7 +1,8 @@
 // All lights that may reach this fragment, by the fixed function's equation.
 //
 // A light is six vec4:
-//   0 position or unit direction towards the light; type (0 directional, 1 point, 2 spot)
+//   0 position or unit direction towards the light; type (0 directional, 1 point,
+//     2 spot, 3 directional with a cone)
 //   1 ambient, constant attenuation      2 diffuse, linear attenuation
 //   3 specular, quadratic attenuation    4 unit spot direction, cosine of the cutoff
 //   5 spot exponent
@@ -35,7 +36,7 @@ void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient
     vec4 lightSpecular = OSGSV_LIGHT(light, 3);
     vec3 toLight = position.xyz;
     float attenuation = 1.0;
-    if (type > 0.0)
+    if (type == 1.0 || type == 2.0)
     {
         toLight = position.xyz - surface.position;
         float distance = length(toLight);
@@ -43,13 +44,13 @@ void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient
         float denominator =
             lightAmbient.w + distance * (lightDiffuse.w + lightSpecular.w * distance);
         attenuation = denominator > 0.0 ? min(1.0 / denominator, 1e30) : 1e30;
-        if (type > 1.5)
-        {
-            vec4 spot = OSGSV_LIGHT(light, 4);
-            float exponent = OSGSV_LIGHT(light, 5).x;
-            float c = dot(-toLight, spot.xyz);
-            attenuation *= c < spot.w ? 0.0 : exponent == 0.0 ? 1.0 : pow(max(c, 0.0), exponent);
-        }
+    }
+    if (type > 1.5)
+    {
+        vec4 spot = OSGSV_LIGHT(light, 4);
+        float exponent = OSGSV_LIGHT(light, 5).x;
+        float c = dot(-toLight, spot.xyz);
+        attenuation *= c < spot.w ? 0.0 : exponent == 0.0 ? 1.0 : pow(max(c, 0.0), exponent);
     }
     ambient += attenuation * lightAmbient.rgb;
     float nl = dot(surface.normal, toLight);

@@ -1,4 +1,5 @@
-# cmake -DBUILD=<build tree> -DSOURCE=<project> -DSCRATCH=<folder> -DCOMPILER=<c++> -DLIBDIR=<lib> -P …
+# cmake -DBUILD=<build tree> -DSOURCE=<project> -DSCRATCH=<folder> -DCOMPILER=<c++>
+#   -DGENERATOR=<generator> -DLIBDIR=<lib> -P PackageTest.cmake
 function(run)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(result)
@@ -7,7 +8,7 @@ function(run)
 endfunction()
 file(REMOVE_RECURSE ${SCRATCH})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${SCRATCH}/build -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix
+run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE} -B ${SCRATCH}/build -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix
     -DCMAKE_CXX_COMPILER=${COMPILER})
 run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 # The installed plugins are found beside the installed libraries.

@@ -124,6 +124,23 @@ void addSpots(Family& family)
                 scene.twin = "spot20Exponent128";
         }
     }
+    // OpenGL 2.1 specification, equation 2.4: a light at infinity has a spot factor, too
+    family.add("spotAtInfinity", withLight(
+                                     [](osg::Light& l)
+                                     {
+                                         makeSpot(l, 30.0f, 4.0f);
+                                         l.setDirection(osg::Vec3(0.1f, 0.2f, -1.0f));
+                                         l.setPosition(osg::Vec4(0.0f, 0.0f, 1.0f, 0.0f));
+                                     }));
+    FeatureScene& elsewhere = family.add("spotAtInfinityElsewhere",
+                                         withLight(
+                                             [](osg::Light& l)
+                                             {
+                                                 makeSpot(l, 30.0f, 4.0f);
+                                                 l.setDirection(osg::Vec3(1.0f, 0.0f, 0.0f));
+                                                 l.setPosition(osg::Vec4(0.0f, 0.0f, 1.0f, 0.0f));
+                                             }));
+    elsewhere.twin = "spot0Exponent0"; // its cone meets nothing
     family.add("spotUnnormalizedDirection", withLight(
                                                 [](osg::Light& l)
                                                 {

@@ -155,7 +155,8 @@ TEST(GlslWrapTest, aRaisedTextStillAsksForTheVersionThatItWasWrittenFor)
     EXPECT_TRUE(contains(old.texts[0], "vec4(120, x__VERSION__, 0, 1)")) << old.texts[0];
     const GlslWrapped none = wrap(text);
     EXPECT_TRUE(contains(none.texts[0], "#if 110 >= 130")) << none.texts[0];
-    const GlslWrapped newer = wrap("#version 400 compatibility\nuniform float x__VERSION__;\n" + text);
+    const GlslWrapped newer =
+        wrap("#version 400 compatibility\nuniform float x__VERSION__;\n" + text);
     ASSERT_TRUE(newer.ok) << error(newer);
     EXPECT_EQ(newer.outputs[0].name, "color");
     EXPECT_TRUE(contains(newer.texts[0], "vec4(__VERSION__,")) << newer.texts[0];

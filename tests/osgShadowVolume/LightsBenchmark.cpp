@@ -5,11 +5,11 @@
 //   osgShadowVolume.LightsBenchmark [--size WxH] [--rounds N] [--most N] [--points] [--tolerance t]
 //                                   [--csv file]
 //
-// Lamps are spots of 60 degrees; with --points they shine everywhere, and then only a tolerance can leave
-// any out: the far ones add up.
+// Lamps are spots of 60 degrees; with --points they shine everywhere, and then only a tolerance can
+// leave any out: the far ones add up.
 //
-// Each number of lights is drawn at rest and with a moving camera (then light data and grid are made
-// anew each frame), in turns; printed are medians and what the plan says.
+// Each number of lights is drawn at rest and with a moving camera (then light data and grid are
+// made anew each frame), in turns; printed are medians and what the plan says.
 #include <osgShadowVolume/LitScene.h>
 
 #include <support/HeadlessViewer.h>
@@ -27,13 +27,15 @@
 namespace
 {
 
-osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights, bool points, double tolerance)
+osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights, bool points,
+                                                  double tolerance)
 {
     osg::ref_ptr<osgShadowVolume::LitScene> scene = new osgShadowVolume::LitScene;
     scene->setLightTolerance(tolerance);
     scene->setLightScope(osgShadowVolume::LitScene::LightScope::ALL);
-    osg::Geometry* floor = osg::createTexturedQuadGeometry(
-        osg::Vec3(-50.0f, -50.0f, 0.0f), osg::Vec3(100.0f, 0.0f, 0.0f), osg::Vec3(0.0f, 100.0f, 0.0f));
+    osg::Geometry* floor = osg::createTexturedQuadGeometry(osg::Vec3(-50.0f, -50.0f, 0.0f),
+                                                           osg::Vec3(100.0f, 0.0f, 0.0f),
+                                                           osg::Vec3(0.0f, 100.0f, 0.0f));
     scene->addChild(floor);
     scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
     // The nearer the lights lie to each other, the steeper they fall off.
@@ -95,9 +97,11 @@ int main(int argc, char** argv)
     std::vector<osg::ref_ptr<osgShadowVolume::LitScene>> scenes;
     for (unsigned int number : numbers)
         scenes.push_back(makeScene(number, points, tolerance));
-    const auto cameraAt = [&](double shift) {
-        return support::CameraSpec::perspective(osg::Vec3d(shift, -70.0, 50.0), osg::Vec3d(), osg::Vec3d(0, 0, 1),
-                                                45.0, double(width) / height, 1.0, 500.0);
+    const auto cameraAt = [&](double shift)
+    {
+        return support::CameraSpec::perspective(osg::Vec3d(shift, -70.0, 50.0), osg::Vec3d(),
+                                                osg::Vec3d(0, 0, 1), 45.0, double(width) / height,
+                                                1.0, 500.0);
     };
     std::vector<std::vector<double>> resting(numbers.size()), moving(numbers.size());
     for (int round = -1; round < rounds; ++round)
@@ -106,10 +110,12 @@ int main(int argc, char** argv)
             viewer.render(scenes[i], cameraAt(0.0), width, height, 1);
             osg::Timer_t start = osg::Timer::instance()->tick();
             viewer.render(scenes[i], cameraAt(0.0), width, height, 1);
-            const double rest = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+            const double rest =
+                osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
             start = osg::Timer::instance()->tick();
             viewer.render(scenes[i], cameraAt(0.01 * (round + 2)), width, height, 1);
-            const double move = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+            const double move =
+                osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
             if (round >= 0)
             {
                 resting[i].push_back(rest);
@@ -119,8 +125,8 @@ int main(int argc, char** argv)
     std::FILE* csv = csvName.empty() ? nullptr : std::fopen(csvName.c_str(), "w");
     if (csv)
         std::fprintf(csv, "lights,resting_ms,moving_ms,drawn,dropped,texture_bytes\n");
-    std::printf("%8s %12s %12s %8s %8s %14s\n", "lights", "resting ms", "moving ms", "drawn", "dropped",
-                "texture bytes");
+    std::printf("%8s %12s %12s %8s %8s %14s\n", "lights", "resting ms", "moving ms", "drawn",
+                "dropped", "texture bytes");
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
         auto counts = scenes[i]->getPlans().empty() ? std::map<std::string, double>()

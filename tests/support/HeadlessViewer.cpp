@@ -101,8 +101,8 @@ private:
 /// pending, and writes them over what a later GL_COLOR_MATERIAL has made of the current color: from
 /// the second frame on, a material that tracks the color would show the last one's values.
 ///
-/// Then draws into a framebuffer object of floats, where one is asked for. (A target that is attached
-/// to the viewer's camera is read from the window's buffers, which it does not have.)
+/// Then draws into a framebuffer object of floats, where one is asked for. (A target that is
+/// attached to the viewer's camera is read from the window's buffers, which it does not have.)
 class FrameStart : public osg::Camera::DrawCallback
 {
 public:
@@ -129,11 +129,13 @@ public:
 private:
     void create(const osg::GLExtensions& gl) const
     {
-        const auto attach = [&](GLenum format, std::initializer_list<GLenum> attachments) {
+        const auto attach = [&](GLenum format, std::initializer_list<GLenum> attachments)
+        {
             GLuint buffer = 0;
             gl.glGenRenderbuffers(1, &buffer);
             gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, buffer);
-            gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, _samples, format, _width, _height);
+            gl.glRenderbufferStorageMultisample(GL_RENDERBUFFER_EXT, _samples, format, _width,
+                                                _height);
             for (GLenum attachment : attachments)
                 gl.glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, attachment, GL_RENDERBUFFER_EXT,
                                              buffer);

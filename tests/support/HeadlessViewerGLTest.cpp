@@ -74,7 +74,8 @@ TEST(HeadlessViewer, floatPicturesOfAnySizeAndNumberOfFramesFollowEachOther)
         for (const int size : {16, 64, 40})
             for (const unsigned int frames : {1u, 2u, 3u})
             {
-                const auto floats = viewer.renderFloat(square({1, 0.25f, 0, 1}), Flat, size, size, frames);
+                const auto floats =
+                    viewer.renderFloat(square({1, 0.25f, 0, 1}), Flat, size, size, frames);
                 EXPECT_EQ(pixel(floats, size / 2, size / 2), osg::Vec4(1, 0.25f, 0, 1))
                     << size << " " << frames;
                 const auto bytes = viewer.render(square({0, 1, 0, 1}), Flat, size, size, frames);

@@ -11,9 +11,8 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_LitScene, new osgShadowVolume::LitScene,
 {
     {
         using Serializer = osgDB::EnumSerializer<MyClass, MyClass::Lighting, void>;
-        osg::ref_ptr<Serializer> serializer =
-            new Serializer("Lighting", MyClass::Lighting::PIXEL, &MyClass::getLighting,
-                           &MyClass::setLighting);
+        osg::ref_ptr<Serializer> serializer = new Serializer(
+            "Lighting", MyClass::Lighting::PIXEL, &MyClass::getLighting, &MyClass::setLighting);
         serializer->add("OFF", MyClass::Lighting::OFF);
         serializer->add("VERTEX", MyClass::Lighting::VERTEX);
         serializer->add("PIXEL", MyClass::Lighting::PIXEL);

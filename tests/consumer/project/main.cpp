@@ -23,6 +23,7 @@ int main(int argc, char** argv)
         lit->getNumChildren() != 1)
         return std::fprintf(stderr, "%s did not come back as it was written\n", argv[1]), 1;
     // The pseudo-loader, too, is found in the installation.
-    osg::ref_ptr<osg::Node> wrapped = osgDB::readRefNodeFile(std::string(argv[1]) + ".shadowvolume");
+    osg::ref_ptr<osg::Node> wrapped =
+        osgDB::readRefNodeFile(std::string(argv[1]) + ".shadowvolume");
     return dynamic_cast<osgShadowVolume::LitScene*>(wrapped.get()) ? 0 : 1;
 }

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// The draw half of SurfaceFrame; SurfaceFrame.cpp collects and resolves.
+#include <osgMultiRender/SurfaceFrame.h>
+
+#include <osgMultiRender/ProgramWrap.h>
+
+#include <osg/GLExtensions>
+#include <osg/Notify>
+#include <osg/Timer>
+
+namespace osgMultiRender
+{
+
+void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
+{
+    osg::State& state = *renderInfo.getState();
+    const osg::StateSet* under = _pass->startRun();
+    if (_withheld)
+        state.pushStateSet(_withheld.get());
+    if (under)
+        state.pushStateSet(under);
+    osgUtil::RenderLeaf* previous = nullptr;
+    SurfaceVariant* current = nullptr;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+        if (items[i].variant != current)
+        {
+            if (previous)
+                osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
+            previous = nullptr;
+            if (current)
+                state.popStateSet();
+            current = items[i].variant;
+            if (current)
+                state.pushStateSet(current->getStateSet());
+        }
+        drawOne(renderInfo, items[i], previous);
+        previous = items[i].leaf;
+    }
+    if (previous)
+        osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
+    if (current)
+        state.popStateSet();
+    if (under)
+        state.popStateSet();
+    if (_withheld)
+        state.popStateSet();
+}
+
+void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
+                           osgUtil::RenderLeaf* previous)
+{
+    osg::State& state = *renderInfo.getState();
+    osgUtil::RenderLeaf& leaf = *item.leaf;
+    state.applyProjectionMatrix(leaf._projection.get());
+    state.applyModelViewMatrix(leaf._modelview.get());
+
+    SurfaceVariant* variant = item.variant;
+    const bool first = variant && variant->compileMilliseconds.load() == 0.0;
+    const osg::Timer_t start = first ? osg::Timer::instance()->tick() : 0;
+    osgUtil::StateGraph* graph = leaf._parent;
+    osgUtil::StateGraph::moveStateGraph(state, previous ? previous->_parent->_parent : nullptr,
+                                        graph->_parent);
+    if (!previous || previous->_parent != graph)
+        state.apply(graph->getStateSet());
+    if (first)
+        variant->compileMilliseconds =
+            osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+    if (variant)
+    {
+        const auto* program = state.getLastAppliedProgramObject();
+        if (!program || program->getProgram() != variant->getProgram())
+            reportFailure(state, *variant);
+        else if (variant->getKey().kit)
+            _pass->apply(renderInfo, *variant, item.number);
+    }
+    if (state.getUseModelViewAndProjectionUniforms())
+        state.applyModelViewAndProjectionUniformsIfRequired();
+    leaf._drawable->draw(renderInfo);
+}
+
+void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
+{
+    if (variant.failed.exchange(true))
+        return;
+    _group->addFailure(_stage->getCamera());
+    const std::string& name = variant.getProgram()->getName();
+    OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
+             << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
+             << errorsOf(*variant.getProgram(), state) << std::flush;
+}
+
+void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
+{
+    Plan plan;
+    plan.kit = std::string(_group->libraryName()) + "::" + _group->className();
+    if (const osg::FrameStamp* stamp = renderInfo.getState()->getFrameStamp())
+        plan.frame = stamp->getFrameNumber();
+    unsigned int drawn = 0, fixed = 0, failed = 0;
+    std::map<SurfaceVariant*, unsigned int> leaves;
+    for (const auto& bin : _items)
+        for (const SurfaceItem& item : bin)
+        {
+            ++(item.variant ? drawn : fixed);
+            if (item.variant)
+                ++leaves[item.variant];
+        }
+    double compileMilliseconds = 0.0;
+    for (const auto& [variant, number] : leaves)
+    {
+        failed += variant->failed;
+        compileMilliseconds += variant->compileMilliseconds;
+        plan.entries.push_back({"variant " + toString(variant->getKey()),
+                                PlanEntry::Decision::Drawn, std::to_string(number) + " drawables"});
+    }
+    for (const SurfaceVariant* wrapper : _failedWrappers)
+    {
+        ++failed;
+        plan.entries.push_back({"program '" + wrapper->getProgram()->getName() + "'",
+                                PlanEntry::Decision::Dropped,
+                                "it does not compile or link; its surfaces show the "
+                                "fixed-function look"});
+    }
+    for (const auto& [reason, number] : _beyond)
+        plan.entries.push_back(
+            {"fixed function", PlanEntry::Decision::Drawn,
+             std::to_string(number) + " drawables keep it because of " + reason});
+    plan.counts["leaves.program"] = drawn;
+    plan.counts["leaves.fixedFunction"] = fixed;
+    plan.counts["drawCalls"] = drawn + fixed;
+    plan.counts["passes"] = drawn + fixed ? 1 : 0;
+    plan.counts["variants"] = static_cast<double>(leaves.size());
+    plan.counts["variants.failed"] = failed;
+    std::size_t states = 0;
+    for (const auto& [graph, surface] : _surfaces)
+        states += !surface.beyond;
+    plan.counts["states"] = static_cast<double>(states);
+    plan.counts["programs.compiledThisFrame"] = _compiled;
+    plan.counts["programs.compileMilliseconds"] = compileMilliseconds;
+    _pass->fillPlan(plan);
+    _group->setPlan(_stage->getCamera(), std::move(plan));
+}
+
+} // namespace osgMultiRender

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/EyeLights.h>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+glm::vec3 toGlm(const osg::Vec4& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+glm::dvec3 unit(const osg::Vec3d& v)
+{
+    const double length = v.length();
+    return length > 0.0 ? glm::dvec3(v.x(), v.y(), v.z()) / length : glm::dvec3(0.0);
+}
+
+} // namespace
+
+EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
+{
+    EyeLight eye;
+    eye.number = light.getLightNum();
+    eye.name = light.getName();
+    eye.ambient = toGlm(light.getAmbient());
+    eye.diffuse = toGlm(light.getDiffuse());
+    eye.specular = toGlm(light.getSpecular());
+    eye.constantAttenuation = light.getConstantAttenuation();
+    eye.linearAttenuation = light.getLinearAttenuation();
+    eye.quadraticAttenuation = light.getQuadraticAttenuation();
+    const osg::Matrix identity;
+    const osg::Matrix& m = matrix ? *matrix : identity;
+    const osg::Vec4d position = osg::Vec4d(light.getPosition()) * m;
+    const bool hasCone = light.getSpotCutoff() != 180.0f;
+    if (light.getPosition().w() == 0.0f)
+    {
+        eye.type = hasCone ? EyeLight::DirectionalSpot : EyeLight::Directional;
+        eye.position = unit(osg::Vec3d(position.x(), position.y(), position.z()));
+    }
+    else
+    {
+        eye.type = hasCone ? EyeLight::Spot : EyeLight::Point;
+        eye.position = glm::dvec3(position.x(), position.y(), position.z()) / position.w();
+    }
+    eye.spotDirection = unit(osg::Matrix::transform3x3(osg::Vec3d(light.getDirection()), m));
+    eye.spotCutoffDegrees = light.getSpotCutoff();
+    eye.spotExponent = light.getSpotExponent();
+    return eye;
+}
+
+} // namespace osgShadowVolume
