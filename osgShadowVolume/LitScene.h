@@ -46,8 +46,8 @@ public:
 
     /// The most that all lights which are left out because of their distance may add to a channel
     /// of a pixel, 1 being full scale. By default 0.5 / 255, half a step of 8 bits; 0 leaves out
-    /// nothing, more trades error for time where lights are many. Materials count as white. A bound up to 32 lights, an
-    /// estimate at 64 points of the view for more.
+    /// nothing, more trades error for time where lights are many. Materials count as white. A bound
+    /// up to 32 lights, an estimate at 64 points of the view for more.
     void setLightTolerance(double tolerance) { _lightTolerance = tolerance; }
     double getLightTolerance() const { return _lightTolerance; }
 

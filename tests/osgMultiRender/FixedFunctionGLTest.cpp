@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <set>
 
 using osgShadowVolume::LitScene;
@@ -23,7 +24,9 @@ using osgShadowVolume::LitScene;
 namespace
 {
 
-constexpr int Width = 160, Height = 120;
+// Small pictures in the short run, osgviewer-like ones in the long.
+const bool Full = std::getenv("OSGKITS_LONG") != nullptr;
+const int Width = Full ? 640 : 160, Height = Full ? 480 : 120;
 
 support::HeadlessViewer& theViewer()
 {

@@ -55,14 +55,15 @@ struct PreparedLight
     /// Its strength at the point; `toLight` becomes a unit vector.
     double attenuationAt(const osg::Vec3d& point, osg::Vec3d& toLight) const
     {
+        double fall = 1.0; // none from infinity
         if (isDirectional)
-        {
             toLight = position;
-            return 1.0;
+        else
+        {
+            toLight = position - point;
+            const double distance = toLight.normalize();
+            fall = constant + linear * distance + quadratic * distance * distance;
         }
-        toLight = position - point;
-        const double distance = toLight.normalize();
-        const double fall = constant + linear * distance + quadratic * distance * distance;
         if (!isSpot)
             return 1.0 / fall;
         const double cosine = -(toLight * direction);
