@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 commit=$(git rev-parse --short HEAD 2>/dev/null || echo none)
-git diff --quiet HEAD 2>/dev/null || commit=$commit+changes
+git diff --quiet HEAD -- . ':!docs/long-runs.md' 2>/dev/null || commit=$commit+changes
 done_file=build/long-$commit.passed
 [ "${commit%+changes}" = "$commit" ] || rm -f "$done_file"
 touch "$done_file"
@@ -28,7 +28,7 @@ for test in "${tests[@]}"; do
     fi
 done
 {
-    [ -f docs/long-runs.md ] || printf '# Long runs\n\nWritten by `tests/run.sh --long`.\n\n| date | commit | passed | failed | passed before | seconds |\n|---|---|---|---|---|---|\n'
+    [ -s docs/long-runs.md ] || printf '# Long runs\n\nWritten by `tests/run.sh --long`.\n\n| date | commit | passed | failed | passed before | seconds |\n|---|---|---|---|---|---|\n'
     printf '| %s | %s | %d | %d | %d | %d |\n' "$(date -u +%F)" "$commit" "$passed" "$failed" "$skipped" "$((SECONDS - start))"
 } >>docs/long-runs.md
 echo "$((passed + skipped)) passed, $failed failed, $skipped of them passed before, in $((SECONDS - start)) s"
