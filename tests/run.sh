@@ -41,5 +41,6 @@ if ((total == 0)); then
     echo "tests/run.sh: no test matches ${filter[*]:-}" >&2
     exit 1
 fi
-echo "$passed passed, $((total - passed - skipped)) failed, $skipped skipped in $((SECONDS - start)) s"
+echo "tests took $((SECONDS - start)) s; log: build/tests.log"
+echo "$passed passed, $((total - passed - skipped)) failed, $skipped skipped"
 exit $status
