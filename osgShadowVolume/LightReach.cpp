@@ -32,8 +32,8 @@ double reachOf(const EyeLight& light, double threshold)
     if (bright == 0.0)
         return 0.0;
     // Written so that NaN in any parameter means "reaches everything".
-    if (light.isDirectional() || !(threshold > 0.0) ||
-        !(light.linearAttenuation >= 0.0f) || !(light.quadraticAttenuation >= 0.0f))
+    if (light.isDirectional() || !(threshold > 0.0) || !(light.linearAttenuation >= 0.0f) ||
+        !(light.quadraticAttenuation >= 0.0f))
         return infinity;
     const double a = light.quadraticAttenuation, b = light.linearAttenuation;
     const double c = light.constantAttenuation - bright / threshold; // a d² + b d + c = 0
