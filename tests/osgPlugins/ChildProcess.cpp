@@ -1,65 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "ChildProcess.h"
 
+#include <support/ChildProcess.h>
+
 #include <csignal>
-#include <cstdlib>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace
-{
-
-std::vector<char*> toPointers(std::vector<std::string>& words)
-{
-    std::vector<char*> pointers;
-    for (std::string& word : words)
-    {
-        pointers.push_back(word.data());
-    }
-    pointers.push_back(nullptr);
-    return pointers;
-}
-
-} // namespace
-
 ChildResult runChild(const std::vector<std::string>& arguments, const Environment& environment)
 {
-    std::vector<std::string> words = {"timeout", "-k", "5", "60"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    const auto pointers = toPointers(words);
-    int ends[2];
-    if (pipe(ends) != 0)
+    support::ChildProcess child;
+    child.arguments = arguments;
+    child.environment = environment;
+    child.environment.emplace("OSG_NOTIFY_LEVEL", "NOTICE");
+    if (!environment.count("DISPLAY"))
     {
-        return {};
+        child.unset = {"DISPLAY"};
     }
-    const pid_t pid = fork();
-    if (pid == 0)
-    {
-        dup2(ends[1], STDOUT_FILENO);
-        dup2(ends[1], STDERR_FILENO);
-        close(ends[0]);
-        unsetenv("DISPLAY");
-        setenv("OSG_NOTIFY_LEVEL", "NOTICE", 1);
-        for (const auto& [name, value] : environment)
-        {
-            setenv(name.c_str(), value.c_str(), 1);
-        }
-        execvp(pointers[0], pointers.data());
-        _exit(127);
-    }
-    close(ends[1]);
-    ChildResult result;
-    char buffer[4096];
-    for (ssize_t size; (size = read(ends[0], buffer, sizeof buffer)) > 0;)
-    {
-        result.output.append(buffer, size);
-    }
-    close(ends[0]);
-    int status = 0;
-    waitpid(pid, &status, 0);
-    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return result;
+    const support::ProcessResult process = child.run();
+    return {process.timedOut ? 124 : process.exitCode, process.output + process.errors};
 }
 
 XServer::XServer()
