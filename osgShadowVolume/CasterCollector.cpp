@@ -243,11 +243,6 @@ osg::CullStack& CasterCollector::cullStack() const
     return _cullStack;
 }
 
-osg::CullStack* CasterCollector::asCullStack()
-{
-    return &cullStack();
-}
-
 osg::Vec3 CasterCollector::getEyePoint() const
 {
     return cullStack().getEyeLocal();

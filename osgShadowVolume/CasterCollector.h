@@ -24,6 +24,12 @@ namespace osgShadowVolume
 /// Drawables that cast shadows under one matrix, for one frame of one view.
 struct Caster
 {
+    Caster() = default;
+    Caster(const Caster&) = default;
+    Caster(Caster&&) noexcept = default; // osg::ref_ptr's own says nothing: lists would copy.
+    Caster& operator=(const Caster&) = default;
+    Caster& operator=(Caster&&) noexcept = default;
+
     CasterSource source;                          ///< For CasterCache::get().
     osg::ref_ptr<const osg::RefMatrix> modelview; ///< Local to eye.
     osg::BoundingBox box;                         ///< Local, as the Drawables state it.
@@ -63,7 +69,8 @@ public:
     /// What casts nothing: "billboards" and so on, with how many there are.
     const std::map<std::string, unsigned int>& getLeftOut() const { return _leftOut; }
 
-    osg::CullStack* asCullStack() override;
+    osg::CullStack* asCullStack() override { return &cullStack(); }
+    const osg::CullStack* asCullStack() const override { return &cullStack(); }
     osg::Vec3 getEyePoint() const override;
     osg::Vec3 getViewPoint() const override;
     float getDistanceToEyePoint(const osg::Vec3& point, bool withLODScale) const override;
