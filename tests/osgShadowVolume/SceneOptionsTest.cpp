@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
+#include <sstream>
 
 using namespace osgShadowVolume;
 
@@ -120,4 +122,35 @@ TEST(SceneOptionsTest, noOptionTakesAnythingElse)
             EXPECT_NE(option.parse(*scene, text), "") << option.name << "=" << text;
             EXPECT_EQ(option.format(*scene), before) << option.name << "=" << text;
         }
+}
+
+TEST(SceneOptionsTest, eachOptionIsDocumented)
+{
+    std::ifstream file(OSGKITS_SETTINGS_PAGE);
+    std::map<std::string, std::string> rows;
+    for (std::string line; std::getline(file, line);)
+        if (line.compare(0, 3, "| `") == 0)
+            rows[line.substr(3, line.find('`', 3) - 3)] = line;
+    const Scene defaults = new ShadowedScene;
+    for (const SceneOption& option : sceneOptions())
+    {
+        ASSERT_TRUE(rows.count(option.name)) << option.name;
+        const std::string& row = rows[option.name];
+        EXPECT_NE(row.find(option.format(*defaults).substr(0, 7)), std::string::npos) << row;
+        std::istringstream values(option.values);
+        for (std::string value; std::getline(values, value, '|');)
+        {
+            if (value[0] != '<')
+            {
+                EXPECT_NE(row.find("`" + value + "`"), std::string::npos) << value << row;
+            }
+        }
+        if (const std::size_t dots = option.values.find(".."); dots != std::string::npos)
+        {
+            const std::string low = option.values.substr(1, dots - 1);
+            const std::string high = option.values.substr(dots + 2);
+            EXPECT_NE(row.find(low + " to " + high.substr(0, high.size() - 1)), std::string::npos)
+                << row;
+        }
+    }
 }
