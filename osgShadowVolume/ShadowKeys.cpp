@@ -148,7 +148,7 @@ void listKeysOnce(osgGA::EventVisitor& visitor)
         return;
     done = true;
     std::ostringstream text;
-    text << "osgShadowVolume: keys for shadows\n";
+    text << "osgShadowVolume: keys for shadows, with shift\n";
     for (const ShadowKey& key : shadowKeys())
         text << "  " << key.key << "  " << key.help << "\n";
     OSG_NOTICE << text.str() << std::flush;

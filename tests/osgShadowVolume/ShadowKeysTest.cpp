@@ -186,7 +186,7 @@ TEST_F(ShadowKeysTest, copiesAnswerToo)
 
 TEST_F(ShadowKeysTest, aWindowBringsTheListOfKeysOnce)
 {
-    Lines expected = {"osgShadowVolume: keys for shadows"};
+    Lines expected = {"osgShadowVolume: keys for shadows, with shift"};
     for (const ShadowKey& key : shadowKeys())
         expected.push_back(std::string("  ") + key.key + "  " + key.help);
     EXPECT_EQ(_list, expected);
