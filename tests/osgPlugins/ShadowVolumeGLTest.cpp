@@ -325,6 +325,38 @@ TEST_F(ShadowVolumePlugin, aWrongValueInAFileIsNamedAndTheDefaultCounts)
     EXPECT_EQ(capture.takeWarnings(), expected);
 }
 
+TEST_F(ShadowVolumePlugin, numbersInFilesThatNoSettingAllowsBecomeTheDefault)
+{
+    const std::string text = R"(#Ascii Scene
+#Version 162
+#Generator OpenSceneGraph 3.6.5
+
+osgShadowVolume::ShadowedScene {
+  UniqueID 1
+  LightTolerance -2
+  TransparentLayers 4000000000
+  MapSize 0
+  MapSamples 3
+}
+)";
+    support::NotifyCapture capture;
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_folder.write("far.osgt", text));
+    const auto* scene = dynamic_cast<ShadowedScene*>(node.get());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->getTransparentLayers(), 4u);
+    EXPECT_EQ(scene->getMapSize(), 1024u);
+    EXPECT_EQ(scene->getMapSamples(), 3u);
+    EXPECT_EQ(scene->getLightTolerance(), 0.5 / 255.0);
+    const support::NotifyCapture::Lines expected = {
+        "osgShadowVolume::ShadowedScene: layers in a file: '4000000000' is not a whole number from "
+        "0 to 64; the default counts",
+        "osgShadowVolume::ShadowedScene: mapsize in a file: '0' is not a whole number from 16 to "
+        "65536; the default counts",
+        "osgShadowVolume::ShadowedScene: tolerance in a file: '-2' is not a number from 0 to 1; "
+        "the default counts"};
+    EXPECT_EQ(capture.takeWarnings(), expected);
+}
+
 TEST_F(ShadowVolumePlugin, osgviewersHelpHasTheKeys)
 {
     const support::ProcessResult result = run({"osgviewer", "-e", "shadowvolume", "--help-keys"});

@@ -1,10 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "AddValueNames.h"
 
-#include <osgShadowVolume/ShadowedScene.h>
+#include <osgShadowVolume/SceneOptions.h>
 
+#include <osg/Notify>
 #include <osgDB/InputStream>
 #include <osgDB/OutputStream>
+
+namespace
+{
+
+using osgShadowVolume::ShadowedScene;
+
+/// Files may hold any number: what no setting allows becomes the default.
+class RangeCheck : public osgDB::FinishedObjectReadCallback
+{
+public:
+    void objectRead(osgDB::InputStream&, osg::Object& object) override
+    {
+        auto& scene = static_cast<ShadowedScene&>(object);
+        const osg::ref_ptr<ShadowedScene> defaults = new ShadowedScene;
+        for (const osgShadowVolume::SceneOption& option : osgShadowVolume::sceneOptions())
+        {
+            const std::string text = option.format(scene), cause = option.parse(scene, text);
+            if (cause.empty())
+                continue;
+            OSG_WARN << "osgShadowVolume::ShadowedScene: " << option.name << " in a file: " << cause
+                     << "; the default counts" << std::endl;
+            option.parse(scene, option.format(*defaults));
+        }
+    }
+};
+
+} // namespace
 
 REGISTER_OBJECT_WRAPPER(osgShadowVolume_ShadowedScene, new osgShadowVolume::ShadowedScene,
                         osgShadowVolume::ShadowedScene,
@@ -30,4 +58,5 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_ShadowedScene, new osgShadowVolume::Shad
     ADD_BOOL_SERIALIZER(Keys, defaults.keys);
     ADD_DOUBLE_SERIALIZER(MetresPerUnit, defaults.metresPerUnit);
     ADD_DOUBLE_SERIALIZER(IlluminanceMaximum, defaults.illuminanceMaximum);
+    wrapper->addFinishedObjectReadCallback(new RangeCheck);
 }
