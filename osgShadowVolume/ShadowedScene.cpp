@@ -2,20 +2,35 @@
 #include <osgShadowVolume/ShadowedScene.h>
 
 #include <osgShadowVolume/LitPass.h>
+#include <osgShadowVolume/ShadowKeys.h>
 #include <osgShadowVolume/VolumeShadows.h>
+
+#include <osgGA/EventVisitor>
 
 namespace osgShadowVolume
 {
 
-ShadowedScene::ShadowedScene() : _resources(std::make_unique<ShadowResources>()) {}
+ShadowedScene::ShadowedScene() : _resources(std::make_unique<ShadowResources>())
+{
+    // Event traversals visit only what asks for them.
+    setNumChildrenRequiringEventTraversal(1);
+}
 
 ShadowedScene::ShadowedScene(const ShadowedScene& other, const osg::CopyOp& copyop)
     : LitScene(other, copyop), _settings(other._settings),
       _resources(std::make_unique<ShadowResources>())
 {
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
 ShadowedScene::~ShadowedScene() = default;
+
+void ShadowedScene::traverse(osg::NodeVisitor& visitor)
+{
+    if (osgGA::EventVisitor* events = visitor.asEventVisitor(); events && getKeys())
+        answerKeys(*this, *events);
+    LitScene::traverse(visitor);
+}
 
 void ShadowedScene::releaseGLObjects(osg::State* state) const
 {

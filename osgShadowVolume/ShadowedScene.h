@@ -24,6 +24,9 @@ public:
                   const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
     META_Node(osgShadowVolume, ShadowedScene)
 
+    /// Under an event traversal also answers to keys; see ShadowKeys.h.
+    void traverse(osg::NodeVisitor& visitor) override;
+
     void setSettings(const ShadowSettings& settings) { _settings = settings; }
     const ShadowSettings& getSettings() const { return _settings; }
 
