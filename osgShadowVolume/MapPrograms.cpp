@@ -47,9 +47,9 @@ osg::ref_ptr<osg::StateSet> makeState(unsigned int samples)
     // a plane falls by `samples` times the larger slope at most. A tenth is for rounding.
     state->setAttributeAndModes(new osg::PolygonOffset(1.1f * float(samples), 4.0f), on);
     state->setMode(GL_DEPTH_CLAMP, on); // casters between the light and its nearest depth
-    for (GLenum mode : {GL_CULL_FACE, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_CLIP_PLANE0,
-                        GL_CLIP_PLANE1, GL_CLIP_PLANE2, GL_CLIP_PLANE3, GL_CLIP_PLANE4,
-                        GL_CLIP_PLANE5})
+    for (GLenum mode :
+         {GL_CULL_FACE, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_CLIP_PLANE0, GL_CLIP_PLANE1,
+          GL_CLIP_PLANE2, GL_CLIP_PLANE3, GL_CLIP_PLANE4, GL_CLIP_PLANE5})
         state->setMode(mode, off);
     return state;
 }

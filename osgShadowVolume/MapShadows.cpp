@@ -74,10 +74,12 @@ void MapShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame&
             lights.push_back(i);
     if (lights.empty())
         return;
+    _resources.casters->evict(state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
+    _meshes.assign(getCasters().size(), nullptr);
     const std::vector<Placed> maps = fit(frame, lights);
     // Without a map the table alone is read: a light has none where it says so.
-    _targets = _resources.maps.acquire(
-        _contextID, {std::max(1u, _budget.size), std::max(1u, _budget.layers)});
+    _targets = _resources.maps.acquire(_contextID,
+                                       {std::max(1u, _budget.size), std::max(1u, _budget.layers)});
     _bytes = _targets->getBytes();
     _targets->setData(makeData(maps));
     const FramebufferVisit visit(*state.get<osg::GLExtensions>());
@@ -134,6 +136,14 @@ std::vector<MapShadows::Placed> MapShadows::fit(const osgMultiRender::SurfaceFra
     return maps;
 }
 
+CasterMesh& MapShadows::getMesh(std::uint32_t caster)
+{
+    osg::ref_ptr<CasterMesh>& mesh = _meshes[caster];
+    if (!mesh)
+        mesh = _resources.casters->get(getCasters()[caster].source);
+    return *mesh;
+}
+
 void MapShadows::drawMap(osg::RenderInfo& renderInfo, const Placed& placed)
 {
     static const unsigned int toMap = osg::Uniform::getNameID("osgsv_toMap");
@@ -151,17 +161,16 @@ void MapShadows::drawMap(osg::RenderInfo& renderInfo, const Placed& placed)
             if (!placed.map.mayShow(_boxes[index], face))
                 continue;
             const Caster& caster = getCasters()[index];
-            const glm::mat4 local(matrix *
-                                  glm::dmat4(glm::make_mat4(caster.modelview->ptr())));
+            const glm::mat4 local(matrix * glm::dmat4(glm::make_mat4(caster.modelview->ptr())));
             gl->glUniformMatrix4fv(program.getUniformLocation(toMap), 1, GL_FALSE, &local[0][0]);
-            caster.mesh->getTriangles()->draw(renderInfo);
+            getMesh(index).getTriangles()->draw(renderInfo);
             ++_drawCalls;
         }
     }
-    _descriptions[placed.light] =
-        plural(placed.map.getLayers(), "map") + " of " + std::to_string(_budget.size) +
-        (_budget.isSmaller ? " (smaller than asked for)" : "") + ", " +
-        plural(casters.size(), "caster");
+    _descriptions[placed.light] = plural(placed.map.getLayers(), "map") + " of " +
+                                  std::to_string(_budget.size) +
+                                  (_budget.isSmaller ? " (smaller than asked for)" : "") + ", " +
+                                  plural(casters.size(), "caster");
 }
 
 std::vector<float> MapShadows::makeData(const std::vector<Placed>& maps) const

@@ -51,13 +51,15 @@ private:
 
     std::vector<Placed> fit(const osgMultiRender::SurfaceFrame& frame,
                             const std::vector<std::size_t>& lights);
+    CasterMesh& getMesh(std::uint32_t caster);
     void drawMap(osg::RenderInfo& renderInfo, const Placed& placed);
     std::vector<float> makeData(const std::vector<Placed>& maps) const;
 
     ShadowResources& _resources;
     const unsigned int _samples;
-    GLint _largest = 0, _maxLayers = 0; ///< Of the driver.
-    std::vector<Hexahedron> _boxes;     ///< Of the casters, in eye coordinates.
+    GLint _largest = 0, _maxLayers = 0;            ///< Of the driver.
+    std::vector<Hexahedron> _boxes;                ///< Of the casters, in eye coordinates.
+    std::vector<osg::ref_ptr<CasterMesh>> _meshes; ///< Likewise; made when needed.
     MapBudget _budget;
     osg::ref_ptr<MapTargets> _targets;
     std::size_t _bytes = 0;

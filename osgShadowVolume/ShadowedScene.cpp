@@ -2,6 +2,7 @@
 #include <osgShadowVolume/ShadowedScene.h>
 
 #include <osgShadowVolume/LitPass.h>
+#include <osgShadowVolume/MapShadows.h>
 #include <osgShadowVolume/VolumeShadows.h>
 
 namespace osgShadowVolume
@@ -28,6 +29,8 @@ std::unique_ptr<osgMultiRender::SurfacePass> ShadowedScene::createPass() const
     std::unique_ptr<LightShadows> shadows;
     if (_settings.shadows == Shadows::VOLUMES)
         shadows = std::make_unique<VolumeShadows>(_settings, *_resources);
+    else if (_settings.shadows == Shadows::MAP)
+        shadows = std::make_unique<MapShadows>(_settings, *_resources);
     return std::make_unique<LitPass>(*this, _settings, std::move(shadows));
 }
 
