@@ -83,12 +83,13 @@ void MapShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame&
     _bytes = _targets->getBytes();
     _targets->setData(makeData(maps));
     const FramebufferVisit visit(*state.get<osg::GLExtensions>());
-    glViewport(0, 0, GLsizei(_budget.size), GLsizei(_budget.size));
+    state.pushStateSet(_targets->getDrawState());
     state.pushStateSet(&_resources.mapPrograms.get(_samples));
     state.apply();
     if (state.getLastAppliedProgramObject())
         for (const Placed& placed : maps)
             drawMap(renderInfo, placed);
+    state.popStateSet();
     state.popStateSet();
 }
 

@@ -3,6 +3,7 @@
 
 #include <osg/FrameBufferObject>
 #include <osg/Image>
+#include <osg/Viewport>
 
 #include <algorithm>
 #include <cstring>
@@ -34,8 +35,11 @@ MapTargets::MapTargets(unsigned int contextID, const MapLayout& layout)
     : osg::Referenced(true), _layout(layout), _framebuffer(contextID),
       _maps(new TargetTexture(GL_DEPTH_COMPONENT32F, int(layout.size), int(layout.size),
                               int(layout.layers), 1)),
-      _data(makeTable()), _stateSet(new osg::StateSet)
+      _data(makeTable()), _drawState(new osg::StateSet), _stateSet(new osg::StateSet)
 {
+    // As an attribute: osg::State applies a viewport of its own wherever it knows of none.
+    _drawState->setAttribute(new osg::Viewport(0, 0, layout.size, layout.size),
+                             osg::StateAttribute::OVERRIDE);
     _maps->setShadowComparison(true);
     _maps->setShadowCompareFunc(osg::Texture::LEQUAL);
     _stateSet->setTextureAttribute(MapsUnit, _maps, osg::StateAttribute::OVERRIDE);

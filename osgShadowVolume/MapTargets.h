@@ -44,6 +44,8 @@ public:
     void bind(osg::State& state, unsigned int layer);
     /// Takes the table of lights, FloatsPerLight each.
     void setData(const std::vector<float>& data);
+    /// Sets the viewport of the maps.
+    const osg::StateSet* getDrawState() const { return _drawState.get(); }
     /// Binds the textures, over the model's own.
     const osg::StateSet* getStateSet() const { return _stateSet.get(); }
 
@@ -57,6 +59,7 @@ private:
     Framebuffer _framebuffer;
     osg::ref_ptr<TargetTexture> _maps;
     osg::ref_ptr<osg::Texture2D> _data;
+    osg::ref_ptr<osg::StateSet> _drawState;
     osg::ref_ptr<osg::StateSet> _stateSet;
 };
 

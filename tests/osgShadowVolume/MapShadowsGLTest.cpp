@@ -9,6 +9,7 @@
 #include <osg/Geode>
 #include <osg/Geometry>
 #include <osg/Light>
+#include <osg/LightModel>
 #include <osg/LightSource>
 #include <osg/Material>
 #include <osg/ValueObject>
@@ -30,7 +31,7 @@ constexpr int Width = 256, Height = 256;
 support::CameraSpec fromAbove()
 {
     support::CameraSpec spec;
-    spec.view = osg::Matrixd::lookAt({0, 0, 20}, {0, 0, 0}, {0, 1, 0});
+    spec.view = osg::Matrixd::lookAt(osg::Vec3d(0, 0, 20), osg::Vec3d(), osg::Vec3d(0, 1, 0));
     spec.projection = osg::Matrixd::ortho(-4, 4, -4, 4, 1, 40);
     return spec;
 }
@@ -84,6 +85,11 @@ osg::ref_ptr<ShadowedScene> shadowed()
     osg::ref_ptr<ShadowedScene> scene = new ShadowedScene;
     scene->setShadows(Shadows::MAP);
     scene->setLightScope(osgShadowVolume::LitScene::LightScope::ALL);
+    osg::StateSet* state = scene->getOrCreateStateSet();
+    state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
+    osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
+    model->setAmbientIntensity(osg::Vec4(0, 0, 0, 1)); // shadows are black
+    state->setAttribute(model);
     return scene;
 }
 
@@ -366,7 +372,8 @@ TEST(MapShadows, theShadowStaysWhileTheCameraMoves)
     const osg::ref_ptr<osg::Image> first = picture(*scene, camera);
     for (int i = 1; i < 6; ++i)
     {
-        camera.view = osg::Matrixd::lookAt({0, 0, 20.0 + 0.7 * i}, {0, 0, 0}, {0, 1, 0});
+        camera.view = osg::Matrixd::lookAt(osg::Vec3d(0, 0, 20.0 + 0.7 * i), osg::Vec3d(),
+                                           osg::Vec3d(0, 1, 0));
         const osg::ref_ptr<osg::Image> next = picture(*scene, camera);
         ASSERT_TRUE(first && next);
         // A pixel whose centre is on the edge of a texel may fall to either side.
