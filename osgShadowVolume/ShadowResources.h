@@ -4,10 +4,10 @@
 #include <osgShadowVolume/CasterCache.h>
 #include <osgShadowVolume/MapPrograms.h>
 #include <osgShadowVolume/MapTargets.h>
+#include <osgShadowVolume/ShadowPasses.h>
 #include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/SilhouetteCache.h>
 #include <osgShadowVolume/TargetPool.h>
-#include <osgShadowVolume/VolumePrograms.h>
 
 namespace osgShadowVolume
 {
@@ -17,8 +17,8 @@ struct ShadowResources
 {
     TargetPool<ShadowTargets> targets;
     TargetPool<MapTargets> maps;
+    ShadowPasses passes;
     MapPrograms mapPrograms;
-    VolumePrograms programs;
     SilhouetteCache silhouettes;
     osg::ref_ptr<CasterCache> casters = CasterCache::instance();
 
@@ -26,8 +26,8 @@ struct ShadowResources
     {
         targets.releaseGLObjects(state);
         maps.releaseGLObjects(state);
+        passes.releaseGLObjects(state);
         mapPrograms.releaseGLObjects(state);
-        programs.releaseGLObjects(state);
         silhouettes.releaseGLObjects(state);
     }
 };
