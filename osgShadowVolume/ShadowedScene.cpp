@@ -3,6 +3,7 @@
 
 #include <osgShadowVolume/LitPass.h>
 #include <osgShadowVolume/ShadowKeys.h>
+#include <osgShadowVolume/MapShadows.h>
 #include <osgShadowVolume/VolumeShadows.h>
 
 #include <osgGA/EventVisitor>
@@ -43,6 +44,8 @@ std::unique_ptr<osgMultiRender::SurfacePass> ShadowedScene::createPass() const
     std::unique_ptr<LightShadows> shadows;
     if (_settings.shadows == Shadows::VOLUMES)
         shadows = std::make_unique<VolumeShadows>(_settings, *_resources);
+    else if (_settings.shadows == Shadows::MAP)
+        shadows = std::make_unique<MapShadows>(_settings, *_resources);
     return std::make_unique<LitPass>(*this, _settings, std::move(shadows));
 }
 
