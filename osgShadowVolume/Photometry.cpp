@@ -135,6 +135,8 @@ public:
         auto text = userValue(node, MetresKey);
         if (!text)
             text = description(node, MetresKey);
+        if (!text)
+            text = findIn(node.getName(), MetresKey);
         if (text)
             add(parse(MetresKey, *text, LeastMetres));
         // Above, the nearest statement counts.

@@ -33,8 +33,8 @@ OSGSHADOWVOLUME_EXPORT Stated intensityOf(const osg::LightSource& source);
 
 /// Metres that a unit of world coordinates stands for.
 ///
-/// Stated as `metresPerUnit`, a user value or a description ("metresPerUnit=0.001") of the node;
-/// else of the nodes below, which must agree; else of the nearest ones above.
+/// Stated as `metresPerUnit`, a user value, a description ("metresPerUnit=0.001") or a part of the
+/// name of the node; else of the nodes below, which must agree; else of the nearest ones above.
 OSGSHADOWVOLUME_EXPORT Stated metresPerUnitOf(const osg::Node& scene);
 
 /// How a message names a light: "light 3 'desk lamp'".

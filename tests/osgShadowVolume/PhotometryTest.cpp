@@ -106,6 +106,8 @@ TEST(PhotometryTest, scaleIsFoundAtBelowAndAboveANode)
     scene->addChild(new osg::Group);
     scene->addChild(model);
     EXPECT_EQ(metresPerUnitOf(*scene).error, "no node states metresPerUnit=<number>");
+    root->setName("root_metresPerUnit=2.5");
+    EXPECT_EQ(metresPerUnitOf(*scene).value, 2.5);
     root->setUserValue("metresPerUnit", 3.0);
     EXPECT_EQ(metresPerUnitOf(*scene).value, 3.0);
     model->addDescription("metresPerUnit=0.001");
