@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/IlluminanceProbe.h>
 
-#include <osgShadowVolume/EyeLights.h>
-#include <osgShadowVolume/Photometry.h>
+#include <osgShadowVolume/SceneLights.h>
 
 #include <osg/Billboard>
 #include <osg/NodeVisitor>
@@ -37,28 +36,11 @@ struct AddTriangle
     }
 };
 
-/// Collects the triangles and the lights of a scene in world coordinates.
-class Collector : public osg::NodeVisitor
+/// Collects the triangles of a scene in world coordinates.
+class TriangleCollector : public osg::NodeVisitor
 {
 public:
-    Collector() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
-
-    void apply(osg::LightSource& source) override
-    {
-        if (const osg::Light* light = source.getLight())
-        {
-            const osg::Matrixd matrix = source.getReferenceFrame() == osg::LightSource::RELATIVE_RF
-                                            ? toWorld()
-                                            : osg::Matrixd();
-            EyeLight world = toEye(*light, &matrix);
-            const Stated intensity = intensityOf(source);
-            world.luxAtUnit = intensity.value;
-            if (!intensity.isKnown())
-                unknown.push_back(describeLight(*light) + ": " + intensity.error);
-            lights.push_back(world);
-        }
-        traverse(source);
-    }
+    TriangleCollector() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
 
     void apply(osg::Billboard&) override {} // turns to the eye, casts nothing
 
@@ -66,29 +48,12 @@ public:
     {
         osg::TriangleFunctor<AddTriangle> functor;
         functor.triangles = &triangles;
-        functor.toWorld = toWorld();
+        functor.toWorld = osg::computeLocalToWorld(getNodePath());
         drawable.accept(functor);
     }
 
     std::vector<TriangleTree::Triangle> triangles;
-    std::vector<EyeLight> lights;
-    std::vector<std::string> unknown; ///< Lights that state no intensity, and why.
-
-private:
-    osg::Matrixd toWorld() const { return osg::computeLocalToWorld(getNodePath()); }
 };
-
-/// The error about lights of unknown intensity: the first few, and how many more.
-std::string describe(const std::vector<std::string>& unknown)
-{
-    constexpr std::size_t most = 3;
-    std::string text = "no illuminance without intensities: ";
-    for (std::size_t i = 0; i < std::min(most, unknown.size()); ++i)
-        text += (i ? "; " : "") + unknown[i];
-    if (unknown.size() > most)
-        text += "; and " + std::to_string(unknown.size() - most) + " more";
-    return text;
-}
 
 } // namespace
 
@@ -113,20 +78,22 @@ IlluminanceProbe::IlluminanceProbe(osg::Node& scene, const ShadowSettings& setti
         return;
     }
     _metresPerUnit = scale.value;
-    Collector collector;
-    scene.accept(collector);
-    if (collector.lights.empty())
-        _error = "no illuminance without lights: the scene has no LightSource";
-    if (!collector.unknown.empty())
-        _error = describe(collector.unknown);
+    const std::vector<SceneLight> lights = collectLights(scene);
+    _error = lights.empty() ? "no illuminance without lights: the scene has no LightSource"
+                            : describeUnknown(lights);
     if (!_error.empty())
         return;
-    for (EyeLight& light : collector.lights)
-        if (!light.isDirectional())
-            light.luxAtUnit /= _metresPerUnit * _metresPerUnit;
-    _lights = std::move(collector.lights);
+    for (const SceneLight& light : lights)
+    {
+        _lights.push_back(light.world);
+        _lights.back().luxAtUnit = luxAtUnit(light, _metresPerUnit);
+    }
     if (settings.shadows != Shadows::OFF)
+    {
+        TriangleCollector collector;
+        scene.accept(collector);
         _tree = TriangleTree(std::move(collector.triangles));
+    }
     _tolerance = OnSurface * _tree.getDiagonal();
 }
 
