@@ -3,9 +3,11 @@
 
 #include <osgShadowVolume/FalseColors.h>
 #include <osgShadowVolume/SceneLights.h>
+#include <osgShadowVolume/Shaders.h>
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Notify>
+#include <osgDB/ReadFile>
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +75,8 @@ double chooseMaximum(osg::Group& group, const std::vector<SceneLight>& lights, d
 
 } // namespace
 
-LightMeasures IlluminanceView::measure(osg::Group& group, const ShadowSettings& settings)
+LightMeasures IlluminanceView::measure(osgUtil::CullVisitor& visitor, osg::Group& group,
+                                       const ShadowSettings& settings)
 {
     RootFinder finder;
     group.accept(finder);
@@ -106,7 +109,44 @@ LightMeasures IlluminanceView::measure(osg::Group& group, const ShadowSettings& 
                  << "; what they light is magenta" << std::endl;
     }
     _said = measures.error;
+    if (settings.show == Show::ILLUMINANCE)
+        _maxima[&visitor] = measures.maximum;
     return measures;
+}
+
+void IlluminanceView::cullLegend(osgUtil::CullVisitor& visitor)
+{
+    double maximum = 0.0;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        const auto found = _maxima.find(&visitor);
+        if (found == _maxima.end())
+            return;
+        maximum = found->second;
+        _maxima.erase(found);
+    }
+    _legend.cull(visitor, maximum);
+}
+
+const osg::StateSet* IlluminanceView::getStateSet()
+{
+    static const osg::ref_ptr<const osg::StateSet> stateSet = []
+    {
+        osg::ref_ptr<osg::StateSet> made = new osg::StateSet;
+        made->setThreadSafeRefUnref(true);
+        made->setMode(GL_BLEND, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+        return made;
+    }();
+    return stateSet.get();
+}
+
+std::string illuminanceSource(bool falseColors)
+{
+    const osg::ref_ptr<osg::Shader> shader = osgDB::readRefShaderFileWithFallback(
+        osg::Shader::FRAGMENT, "osgShadowVolume/illuminance.frag", shaders::illuminance_frag);
+    const std::string colors =
+        falseColors ? "#define OSGSV_FALSE_COLORS\n" + falseColorSource() : std::string();
+    return colors + shader->getShaderSource();
 }
 
 } // namespace osgShadowVolume

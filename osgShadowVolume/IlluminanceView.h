@@ -6,6 +6,7 @@
 
 #include <osg/Group>
 #include <osg/Light>
+#include <osg/StateSet>
 
 #include <map>
 #include <mutex>
@@ -28,15 +29,28 @@ struct LightMeasures
 class IlluminanceView
 {
 public:
-    /// Looks at the lights of the whole scene that `group` is part of. Warns when something is
-    /// unknown, once for the same.
-    LightMeasures measure(osg::Group& group, const ShadowSettings& settings);
+    /// Looks at the lights of the whole scene that `group` is part of, in the cull thread. Warns
+    /// when something is unknown, once for the same.
+    LightMeasures measure(osgUtil::CullVisitor& visitor, osg::Group& group,
+                          const ShadowSettings& settings);
 
-    LuxLegend legend;
+    /// Adds the legend to the view, where measure() was called for it since the last time.
+    void cullLegend(osgUtil::CullVisitor& visitor);
+
+    /// What measured surfaces are drawn under: blending would mix numbers.
+    static const osg::StateSet* getStateSet();
+
+    void resizeGLObjectBuffers(unsigned int maxSize) { _legend.resizeGLObjectBuffers(maxSize); }
+    void releaseGLObjects(osg::State* state) const { _legend.releaseGLObjects(state); }
 
 private:
+    LuxLegend _legend;
     std::mutex _mutex;
     std::string _said;
+    std::map<const osgUtil::CullVisitor*, double> _maxima; ///< Of views that want a legend.
 };
+
+/// GLSL that defines osgmr_output() and follows lights.frag; see shaders/illuminance.frag.
+std::string illuminanceSource(bool falseColors);
 
 } // namespace osgShadowVolume

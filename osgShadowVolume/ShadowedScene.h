@@ -7,6 +7,7 @@
 namespace osgShadowVolume
 {
 
+class IlluminanceView;
 struct ShadowResources;
 
 /// A LitScene whose lights cast hard shadows, right to the pixel, on everything in the group.
@@ -77,6 +78,8 @@ public:
     void setIlluminanceMaximum(double lux) { _settings.illuminanceMaximum = lux; }
     double getIlluminanceMaximum() const { return _settings.illuminanceMaximum; }
 
+    void traverse(osg::NodeVisitor& visitor) override;
+    void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
@@ -87,6 +90,7 @@ protected:
 private:
     ShadowSettings _settings;
     std::unique_ptr<ShadowResources> _resources;
+    std::unique_ptr<IlluminanceView> _illuminance;
 };
 
 } // namespace osgShadowVolume
