@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/IlluminanceProbe.h>
 
+#include <osgShadowVolume/CasterCollector.h>
 #include <osgShadowVolume/SceneLights.h>
 
-#include <osg/Billboard>
-#include <osg/NodeVisitor>
 #include <osg/TriangleFunctor>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cmath>
@@ -36,24 +36,38 @@ struct AddTriangle
     }
 };
 
-/// Collects the triangles of a scene in world coordinates.
-class TriangleCollector : public osg::NodeVisitor
+/// What casts in the picture, of each LOD what is shown close up.
+class NearCasters : public CasterCollector
 {
 public:
-    TriangleCollector() : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN) {}
+    using CasterCollector::CasterCollector;
 
-    void apply(osg::Billboard&) override {} // turns to the eye, casts nothing
+    osg::CullStack* asCullStack() override { return nullptr; }
+    float getDistanceToEyePoint(const osg::Vec3&, bool) const override { return 0.0f; }
+    float getDistanceFromEyePoint(const osg::Vec3&, bool) const override { return 0.0f; }
+    float getDistanceToViewPoint(const osg::Vec3&, bool) const override { return 0.0f; }
+};
 
-    void apply(osg::Drawable& drawable) override
+std::vector<TriangleTree::Triangle> collectTriangles(osg::Node& scene, TransparentCasters which)
+{
+    // A view from the origin: its eye coordinates are those of the world.
+    const osg::ref_ptr<osgUtil::CullVisitor> view = new osgUtil::CullVisitor;
+    view->pushViewport(new osg::Viewport(0, 0, 1, 1));
+    view->pushProjectionMatrix(new osg::RefMatrix);
+    view->pushModelViewMatrix(new osg::RefMatrix, osg::Transform::RELATIVE_RF);
+    NearCasters casters(*view, which);
+    scene.accept(casters);
+    std::vector<TriangleTree::Triangle> triangles;
+    for (const Caster& caster : casters.getCasters())
     {
         osg::TriangleFunctor<AddTriangle> functor;
         functor.triangles = &triangles;
-        functor.toWorld = osg::computeLocalToWorld(getNodePath());
-        drawable.accept(functor);
+        functor.toWorld = *caster.modelview;
+        for (const auto& drawable : caster.source)
+            drawable->accept(functor);
     }
-
-    std::vector<TriangleTree::Triangle> triangles;
-};
+    return triangles;
+}
 
 } // namespace
 
@@ -89,11 +103,7 @@ IlluminanceProbe::IlluminanceProbe(osg::Node& scene, const ShadowSettings& setti
         _lights.back().luxAtUnit = luxAtUnit(light, _metresPerUnit);
     }
     if (settings.shadows != Shadows::OFF)
-    {
-        TriangleCollector collector;
-        scene.accept(collector);
-        _tree = TriangleTree(std::move(collector.triangles));
-    }
+        _tree = TriangleTree(collectTriangles(scene, settings.transparentCasters));
     _tolerance = OnSurface * _tree.getDiagonal();
 }
 
