@@ -44,7 +44,7 @@ double radicalInverse(unsigned int i, unsigned int base)
     return result;
 }
 
-/// A round value above what four fifths of the group's box get, facing each light and without
+/// A round value above what nine tenths of the group's box get, facing each light and without
 /// shadows: close to a lamp there is no largest value. It depends on the scene, not on the view.
 double chooseMaximum(osg::Group& group, const std::vector<SceneLight>& lights, double metresPerUnit)
 {
@@ -70,7 +70,7 @@ double chooseMaximum(osg::Group& group, const std::vector<SceneLight>& lights, d
         }
     }
     std::sort(lux.begin(), lux.end());
-    return roundUp(lux[samples * 4 / 5]);
+    return roundUp(lux[samples * 9 / 10]);
 }
 
 } // namespace

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "LitPictures.h"
 #include "MeasuredScenes.h"
 
 #include <osgShadowVolume/FalseColors.h>
 #include <osgShadowVolume/IlluminanceProbe.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
+#include <support/CompareImage.h>
+#include <support/HeadlessViewer.h>
 #include <support/NotifyCapture.h>
 
 #include <osg/BlendFunc>
@@ -14,6 +15,7 @@
 #include <osg/ValueObject>
 
 #include <cmath>
+#include <functional>
 #include <random>
 
 using namespace osgShadowVolume;
@@ -22,6 +24,12 @@ namespace
 {
 
 constexpr int Width = 160, Height = 120;
+
+support::HeadlessViewer& viewer()
+{
+    static support::HeadlessViewer made;
+    return made;
+}
 
 osg::ref_ptr<ShadowedScene> measuring(osg::Node& model, Show show = Show::LUX)
 {
@@ -54,10 +62,11 @@ public:
     }
 
     /// Pixels of a plane: the share of those that the mask names is within half a percent.
-    void expectPlane(const osg::Image& lux, const support::CameraSpec& spec,
+    void expectPlane(const osg::Image* lux, const support::CameraSpec& spec,
                      const osg::Vec3d& origin, const osg::Vec3d& normal,
                      const std::function<bool(const osg::Vec3d&)>& isOnPlane)
     {
+        ASSERT_TRUE(lux);
         const osg::Matrixd toWorld = osg::Matrixd::inverse(spec.view * spec.projection);
         const osg::Vec3d eye = osg::Vec3d() * osg::Matrixd::inverse(spec.view);
         int compared = 0, atShadows = 0;
@@ -91,7 +100,7 @@ public:
                     continue;
                 }
                 ++compared;
-                const float found = lux.getColor(unsigned(x), unsigned(y)).r();
+                const float found = lux->getColor(unsigned(x), unsigned(y)).r();
                 EXPECT_NEAR(found, expected, 0.005 * expected)
                     << "pixel " << x << ", " << y << " at " << at(0, 0).x() << ", " << at(0, 0).y()
                     << ", " << at(0, 0).z();
@@ -123,7 +132,7 @@ bool isAnywhere(const osg::Vec3d&)
 
 osg::ref_ptr<osg::Image> luxOf(osg::Node& model, const support::CameraSpec& spec)
 {
-    return lit::viewer().renderFloat(measuring(model), spec, Width, Height, 2);
+    return viewer().renderFloat(measuring(model), spec, Width, Height, 2);
 }
 
 /// The floor's pixels against the probe, from 4 units above.
@@ -131,9 +140,8 @@ void expectFloor(osg::Group& scene)
 {
     const support::CameraSpec spec = camera(osg::Vec3d(0, -0.5, 4), osg::Vec3d(), 1.0);
     const osg::ref_ptr<osg::Image> lux = luxOf(scene, spec);
-    ASSERT_TRUE(lux);
     PixelsAgainstProbe(scene, ShadowSettings())
-        .expectPlane(*lux, spec, osg::Vec3d(), osg::Vec3d(0, 0, 1), isAnywhere);
+        .expectPlane(lux.get(), spec, osg::Vec3d(), osg::Vec3d(0, 0, 1), isAnywhere);
 }
 
 } // namespace
@@ -141,7 +149,7 @@ void expectFloor(osg::Group& scene)
 class IlluminanceGLTest : public testing::Test
 {
 protected:
-    void SetUp() override { OSGKITS_NEED_GL(lit::viewer()); }
+    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
     support::NotifyCapture _capture;
 };
 
@@ -168,7 +176,7 @@ TEST_F(IlluminanceGLTest, directionalLightCastsShadows)
     const support::CameraSpec spec = camera(osg::Vec3d(0, -0.5, 4), osg::Vec3d(), 1.0);
     const osg::ref_ptr<osg::Image> lux = luxOf(*scene, spec);
     PixelsAgainstProbe(*scene, ShadowSettings())
-        .expectPlane(*lux, spec, osg::Vec3d(), osg::Vec3d(0, 0, 1),
+        .expectPlane(lux.get(), spec, osg::Vec3d(), osg::Vec3d(0, 0, 1),
                      [](const osg::Vec3d& p) { return p.x() < 0.3 && p.y() < 0.8; });
 }
 
@@ -184,10 +192,11 @@ TEST_F(IlluminanceGLTest, classRoomIsTheProbesInMetresAndMillimetres)
         PixelsAgainstProbe pixels(*room, ShadowSettings());
         const auto isDesk = [m](const osg::Vec3d& p)
         { return std::abs(p.x() / m - 4.0) < 0.79 && std::abs(p.y() / m - 3.0) < 0.39; };
-        pixels.expectPlane(*lux, spec, osg::Vec3d(0, 0, 0.75) * m, osg::Vec3d(0, 0, 1), isDesk);
+        pixels.expectPlane(lux.get(), spec, osg::Vec3d(0, 0, 0.75) * m, osg::Vec3d(0, 0, 1),
+                           isDesk);
         const osg::Vec3d eye(7.0, 1.0, 2.9);
         pixels.expectPlane(
-            *lux, spec, osg::Vec3d(), osg::Vec3d(0, 0, 1),
+            lux.get(), spec, osg::Vec3d(), osg::Vec3d(0, 0, 1),
             [&](const osg::Vec3d& p)
             {
                 const osg::Vec3d floor = p / m;
@@ -247,7 +256,7 @@ TEST_F(IlluminanceGLTest, sideThatIsSeenIsMeasured)
         scene->addChild(measured::pointLight(1, osg::Vec3(0, 0, 2), "candela=400", *scene));
         const osg::ref_ptr<osg::Image> lux = luxOf(*scene, spec);
         PixelsAgainstProbe(*scene, ShadowSettings())
-            .expectPlane(*lux, spec, osg::Vec3d(), osg::Vec3d(0, 0, 1), isAnywhere);
+            .expectPlane(lux.get(), spec, osg::Vec3d(), osg::Vec3d(0, 0, 1), isAnywhere);
     }
 }
 
@@ -258,7 +267,7 @@ TEST_F(IlluminanceGLTest, falseColorsAreThoseOfTheLegend)
     const support::CameraSpec spec = camera(osg::Vec3d(0, -0.5, 4), osg::Vec3d(), 1.0);
     const osg::ref_ptr<ShadowedScene> group = measuring(*scene, Show::ILLUMINANCE);
     group->setIlluminanceMaximum(2000.0);
-    const osg::ref_ptr<osg::Image> picture = lit::viewer().render(group, spec, 320, 240, 2);
+    const osg::ref_ptr<osg::Image> picture = viewer().render(group, spec, 320, 240, 2);
     const glm::vec3 expected = falseColor(0.4);
     const osg::Vec4 found = picture->getColor(300u, 120u);
     for (int i = 0; i < 3; ++i)
@@ -292,7 +301,7 @@ TEST_F(IlluminanceGLTest, viewersHeadlightIsNoLamp)
 {
     const osg::ref_ptr<osg::Group> scene = floorOf(10.0f);
     scene->addChild(measured::pointLight(1, osg::Vec3(0, 0, 2), "candela=100", *scene));
-    lit::viewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
+    viewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
     expectFloor(*scene);
-    lit::viewer().getViewer().setLightingMode(osg::View::NO_LIGHT);
+    viewer().getViewer().setLightingMode(osg::View::NO_LIGHT);
 }
