@@ -31,7 +31,7 @@ void setUniform(const osg::State& state, const char* name, float value)
 } // namespace
 
 void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
-                     const osg::ref_ptr<osg::RefMatrix>& modelview)
+                     const osg::ref_ptr<const osg::RefMatrix>& modelview)
 {
     osg::Matrixd toLocal;
     const double determinant = determinantOf(*modelview);

@@ -197,7 +197,9 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     if (_shadows)
     {
         _shadows->begin(renderInfo);
-        _shadows->plan(frame, _lights);
+        GLint viewport[4];
+        glGetIntegerv(GL_VIEWPORT, viewport);
+        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, frame, _lights);
     }
     if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)

@@ -104,6 +104,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     osg::State& state = *renderInfo.getState();
     _contextID = state.getContextID();
     _frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
+    _resources.casters->evict(_frameNumber);
     _meshes.assign(getCasters().size(), nullptr);
     _descriptions.assign(getLights().size(), std::string());
     int lights = 0;
@@ -130,6 +131,11 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     _targets = _resources.targets.acquire(_contextID, layout);
 
     FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    // Without it osg::State would go back to its default viewport at our own draws.
+    osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+    base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
+                       osg::StateAttribute::OVERRIDE);
+    state.pushStateSet(base);
     drawDepths(renderInfo, frame, isReceiver);
     makeMask(renderInfo, used, -1);
     for (_layers = 0; _layers < layout.layers; ++_layers)
@@ -138,6 +144,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
             break;
         makeMask(renderInfo, used, _layers);
     }
+    state.popStateSet();
     _lookUp = new osg::StateSet;
     _lookUp->setTextureAttribute(ShadowTargets::MaskUnit, _targets->getMask(),
                                  osg::StateAttribute::OVERRIDE);
@@ -244,7 +251,7 @@ const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
 {
     osg::ref_ptr<CasterMesh>& mesh = _meshes[caster];
     if (!mesh)
-        mesh = _resources.casters->get(getCasters()[caster].source, _frameNumber);
+        mesh = _resources.casters->get(getCasters()[caster].source);
     return mesh;
 }
 
