@@ -117,7 +117,7 @@ IlluminanceProbe::Reading IlluminanceProbe::measure(const osg::Vec3d& point,
     for (const EyeLight& light : _lights)
     {
         double lux = illuminanceAt(light, at, n);
-        if (lux > 0.0 &&
+        if (lux > 0.0 && light.castsShadow &&
             (light.isDirectional() ? _tree.blocks(at, light.position, _tolerance,
                                                   std::numeric_limits<double>::infinity())
                                    : _tree.blocks(at, light.position - at, _tolerance)))

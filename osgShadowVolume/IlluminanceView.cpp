@@ -2,6 +2,7 @@
 #include <osgShadowVolume/IlluminanceView.h>
 
 #include <osgShadowVolume/FalseColors.h>
+#include <osgShadowVolume/RadicalInverse.h>
 #include <osgShadowVolume/SceneLights.h>
 #include <osgShadowVolume/Shaders.h>
 
@@ -34,15 +35,6 @@ public:
 
     std::set<osg::Node*> roots;
 };
-
-/// Low-discrepancy numbers in [0, 1).
-double radicalInverse(unsigned int i, unsigned int base)
-{
-    double result = 0.0, digit = 1.0 / base;
-    for (; i; i /= base, digit /= base)
-        result += digit * (i % base);
-    return result;
-}
 
 /// A round value above what nine tenths of the group's box get, facing each light and without
 /// shadows: close to a lamp there is no largest value. It depends on the scene, not on the view.

@@ -2,6 +2,7 @@
 #include <osgShadowVolume/LitPass.h>
 
 #include <osgShadowVolume/EyeLights.h>
+#include <osgShadowVolume/RadicalInverse.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
@@ -43,15 +44,6 @@ enum KitBits : std::uint32_t
 std::uint32_t numberOfUniformLights(std::uint32_t kit)
 {
     return (kit >> NumberShift) & 15u;
-}
-
-/// Low-discrepancy numbers in [0, 1), so that few samples cover boxes evenly.
-double radicalInverse(unsigned int i, unsigned int base)
-{
-    double result = 0.0, digit = 1.0 / base;
-    for (; i; i /= base, digit /= base)
-        result += digit * (i % base);
-    return result;
 }
 
 /// The most that a matrix stretches a length.
