@@ -9,7 +9,7 @@
 namespace osgShadowVolume
 {
 
-using Pass = VolumePrograms::Pass;
+using Pass = ShadowPasses::Pass;
 
 namespace
 {
@@ -63,7 +63,7 @@ void CasterDraw::run(bool zFail)
 void CasterDraw::drawPass(Pass pass, bool zFail)
 {
     osg::State& state = *_view.renderInfo.getState();
-    state.pushStateSet(&_view.resources.programs.get(pass, _view.tier, zFail));
+    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, zFail));
     state.apply();
     state.applyProjectionMatrix(_view.projection.get());
     if (state.getLastAppliedProgramObject())

@@ -23,7 +23,7 @@ public:
         osg::RenderInfo& renderInfo;
         ShadowResources& resources;
         Technique technique; ///< Not AUTO.
-        VolumePrograms::Tier tier;
+        ShadowPasses::Tier tier;
         osg::ref_ptr<osg::RefMatrix> projection;
         unsigned int frameNumber;
     };
@@ -45,9 +45,9 @@ private:
         float handedness; ///< Sign of the modelview's determinant.
     };
 
-    void drawPass(VolumePrograms::Pass pass, bool zFail);
+    void drawPass(ShadowPasses::Pass pass, bool zFail);
     void place(const Placed& placed);
-    void drawParts(VolumePrograms::Pass pass, const Placed& placed);
+    void drawParts(ShadowPasses::Pass pass, const Placed& placed);
     void drawGeometry(const osg::Geometry& geometry);
 
     const View& _view;

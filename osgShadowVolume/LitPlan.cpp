@@ -45,8 +45,8 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
                 add(_lights[i], PlanEntry::Decision::Drawn, _shadows->describe(i));
             else
                 add(_lights[i], PlanEntry::Decision::Folded,
-                    "lit without shadow: " +
-                        (_shadows ? _shadows->getDecision(i).reason : "shadows are off"));
+                    "in the one pass of all unshadowed lights" +
+                        (_shadows ? ": " + _shadows->getDecision(i).reason : std::string()));
         }
         else
         {

@@ -4,7 +4,7 @@
 #include <osgShadowVolume/CasterCache.h>
 #include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/SilhouetteCache.h>
-#include <osgShadowVolume/VolumePrograms.h>
+#include <osgShadowVolume/ShadowPasses.h>
 
 namespace osgShadowVolume
 {
@@ -13,14 +13,14 @@ namespace osgShadowVolume
 struct ShadowResources
 {
     ShadowTargetPool targets;
-    VolumePrograms programs;
+    ShadowPasses passes;
     SilhouetteCache silhouettes;
     osg::ref_ptr<CasterCache> casters = CasterCache::instance();
 
     void releaseGLObjects(osg::State* state)
     {
         targets.releaseGLObjects(state);
-        programs.releaseGLObjects(state);
+        passes.releaseGLObjects(state);
         silhouettes.releaseGLObjects(state);
     }
 };

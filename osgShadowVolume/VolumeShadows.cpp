@@ -15,7 +15,7 @@ namespace osgShadowVolume
 {
 
 using osgMultiRender::SurfaceItem;
-using Pass = VolumePrograms::Pass;
+using Pass = ShadowPasses::Pass;
 
 namespace
 {
@@ -164,7 +164,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     { return item.state->isOn(osgMultiRender::SurfaceState::AlphaTest); };
     const auto draw = [&](Pass pass, bool holes)
     {
-        frame.drawSelected(renderInfo, _resources.programs.get(pass, _tier),
+        frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
                            [&](const SurfaceItem& item) {
                                return isReceiver(item) && isOpaque(item) &&
                                       hasHoles(item) == holes;
@@ -196,7 +196,7 @@ bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     gl->glGenQueries(1, &query);
     gl->glBeginQuery(GL_SAMPLES_PASSED_ARB, query);
     state.pushStateSet(inputs);
-    frame.drawSelected(renderInfo, _resources.programs.get(Pass::Peel, _tier),
+    frame.drawSelected(renderInfo, _resources.passes.get(Pass::Peel, _tier),
                        [&](const SurfaceItem& item)
                        { return isReceiver(item) && !isOpaque(item); });
     state.popStateSet();
@@ -213,7 +213,7 @@ void VolumeShadows::resolve(osg::RenderInfo& renderInfo, int bit)
     osg::ref_ptr<osg::StateSet> inputs = new osg::StateSet;
     inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getCounter());
     inputs->addUniform(new osg::Uniform("osgsv_bit", bit));
-    state.pushStateSet(&_resources.programs.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
+    state.pushStateSet(&_resources.passes.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
     state.pushStateSet(inputs);
     state.apply();
     drawScreen(state);
