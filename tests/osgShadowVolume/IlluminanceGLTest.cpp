@@ -107,7 +107,7 @@ public:
                 if (testing::Test::HasFailure())
                     return;
             }
-        EXPECT_GT(compared, 500);
+        EXPECT_GT(compared, 250);
         EXPECT_LT(atShadows, compared / 5);
     }
 
