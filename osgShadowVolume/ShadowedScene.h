@@ -7,6 +7,7 @@
 namespace osgShadowVolume
 {
 
+class IlluminanceView;
 struct ShadowResources;
 
 /// A LitScene whose lights cast hard shadows, right to the pixel, on everything in the group.
@@ -80,6 +81,7 @@ public:
     void setIlluminanceMaximum(double lux) { _settings.illuminanceMaximum = lux; }
     double getIlluminanceMaximum() const { return _settings.illuminanceMaximum; }
 
+    void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
@@ -90,6 +92,7 @@ protected:
 private:
     ShadowSettings _settings;
     std::unique_ptr<ShadowResources> _resources;
+    std::unique_ptr<IlluminanceView> _illuminance;
 };
 
 } // namespace osgShadowVolume

@@ -3,6 +3,7 @@
 
 #include "CameraSetting.h"
 #include "Compare.h"
+#include "Probe.h"
 
 #include <map>
 #include <string>
@@ -45,6 +46,13 @@ struct Arguments
     std::string reference; ///< Picture to compare the last frame with; empty: none.
     std::string difference;
     Tolerance tolerance;
+    ProbeSetting probe; ///< Illuminance to measure.
+
+    /// Whether anything that is asked for needs a frame to be drawn.
+    bool drawsFrames() const
+    {
+        return !outputs.empty() || !stats.empty() || listPlan || !reference.empty();
+    }
 
     /// Models and osgviewer's own switches, for osgViewer::Viewer and the model readers.
     std::vector<std::string> viewerArguments;
