@@ -78,10 +78,12 @@ void CasterDraw::drawPass(Pass pass, bool zFail)
 void CasterDraw::place(const Placed& placed)
 {
     static const unsigned int light = osg::Uniform::getNameID("osgsv_localLight");
+    static const unsigned int rest = osg::Uniform::getNameID("osgsv_lightRest");
     osg::State& state = *_view.renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform4fv(program.getUniformLocation(light), 1,
-                                                 &placed.light[0]);
+    const auto* gl = state.get<osg::GLExtensions>();
+    gl->glUniform4fv(program.getUniformLocation(light), 1, &placed.light.light[0]);
+    gl->glUniform3fv(program.getUniformLocation(rest), 1, &placed.light.rest[0]);
     setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
     setUniform(state, "osgsv_handedness", placed.handedness);
     state.applyModelViewMatrix(placed.modelview.get());

@@ -5,6 +5,7 @@
 #include <osgShadowVolume/LightReach.h>
 #include <osgShadowVolume/ShadowResources.h>
 #include <osgShadowVolume/ShadowSettings.h>
+#include <osgShadowVolume/Silhouette.h>
 
 #include <osg/RenderInfo>
 
@@ -41,7 +42,7 @@ private:
     {
         osg::ref_ptr<CasterMesh> mesh;
         osg::ref_ptr<const osg::RefMatrix> modelview;
-        glm::vec4 light;  ///< In the caster's own coordinates.
+        MeshLight light;
         float handedness; ///< Sign of the modelview's determinant.
     };
 
