@@ -12,6 +12,8 @@
 #include <osg/LightModel>
 #include <osg/LightSource>
 #include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
 #include <osg/ValueObject>
 
 #include <algorithm>
@@ -389,6 +391,81 @@ TEST(MapShadows, theShadowStaysWhileTheCameraMoves)
         // A pixel whose centre is on the edge of a texel may fall to either side.
         EXPECT_LT(support::difference(*first, *next, 8.0 / 255.0).getShareOver(), 0.0005) << i;
     }
+}
+
+TEST(MapShadows, withoutRoomForAMapALightHasNoShadowAndThePlanSaysSo)
+{
+    OSGKITS_NEED_GL(viewer());
+    osg::ref_ptr<ShadowedScene> scene = shadowed();
+    scene->addChild(floorGeode());
+    scene->addChild(occluder(1.0));
+    scene->addChild(lightSource(0, osg::Vec4(0.5f, 0.4f, 1, 0)));
+    scene->setMapMegabytes(0);
+    const osg::ref_ptr<osg::Image> mapped = picture(*scene, fromAbove());
+    ASSERT_TRUE(mapped);
+    const osgMultiRender::Plan plan = scene->getPlans().at(0);
+    EXPECT_NE(entryOf(plan, "light 0").find("no shadow: there is no room for its map"),
+              std::string::npos)
+        << entryOf(plan, "light 0");
+    scene->setShadows(Shadows::OFF);
+    const osg::ref_ptr<osg::Image> plain = picture(*scene, fromAbove());
+    EXPECT_EQ(support::difference(*mapped, *plain, 0.0).pixelsOver, 0u);
+}
+
+TEST(MapShadows, largeMapsAgreeWithVolumesAtAnyScale)
+{
+    OSGKITS_NEED_GL(viewer());
+    for (const double unit : {1e-5, 1.0, 1e5})
+        for (const char* type : {"directional", "spot", "point"})
+        {
+            osg::ref_ptr<ShadowedScene> scene = shadowed();
+            osg::ref_ptr<osg::MatrixTransform> scaled =
+                new osg::MatrixTransform(osg::Matrixd::scale(unit, unit, unit));
+            osg::StateSet* state = scaled->getOrCreateStateSet();
+            state->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+            scene->addChild(scaled);
+            scaled->addChild(floorGeode());
+            scaled->addChild(occluder(1.0));
+            osg::ref_ptr<osg::Geode> solids = new osg::Geode;
+            for (int i = 0; i < 5; ++i)
+                solids->addDrawable(new osg::ShapeDrawable(new osg::Sphere(
+                    osg::Vec3(-3.0f + 1.4f * i, -2.0f + 0.7f * (i % 3), 0.6f), 0.5f)));
+            solids->addDrawable(
+                new osg::ShapeDrawable(new osg::Box(osg::Vec3(2.0f, 2.0f, 0.8f), 0.9f)));
+            scaled->addChild(solids);
+            osg::ref_ptr<osg::LightSource> source = lightSource(
+                0, type[0] == 'd' ? osg::Vec4(0.7f, -0.4f, 1, 0) : osg::Vec4(0.8f, -0.5f, 3, 1));
+            if (type[0] == 's')
+            {
+                source->getLight()->setDirection(osg::Vec3(-0.1f, 0.1f, -1));
+                source->getLight()->setSpotCutoff(60.0f);
+            }
+            scaled->addChild(source);
+            support::CameraSpec camera = support::CameraSpec::perspective(
+                osg::Vec3d(1, -9, 6) * unit, {0, 0, 0}, {0, 0, 1}, 45.0, 1.0, unit, 30.0 * unit);
+            scene->setShadows(Shadows::VOLUMES);
+            const osg::ref_ptr<osg::Image> exact = picture(*scene, camera);
+            scene->setShadows(Shadows::OFF);
+            const osg::ref_ptr<osg::Image> lit = picture(*scene, camera);
+            scene->setShadows(Shadows::MAP);
+            double share[2] = {};
+            for (unsigned int large : {0u, 1u})
+            {
+                scene->setMapSize(large ? 2048 : 128);
+                const osg::ref_ptr<osg::Image> mapped = picture(*scene, camera);
+                ASSERT_TRUE(mapped && exact && lit);
+                share[large] = support::difference(*mapped, *exact, 8.0 / 255.0).getShareOver();
+                support::writeImage(*mapped, std::string("map.solids.") + type +
+                                                 (large ? ".large" : ".small"));
+            }
+            support::writeImage(*exact, std::string("map.solids.") + type + ".volumes");
+            std::printf("[ error    ] %s, unit %g: %.3f %% of 128 texels, %.3f %% of 2048\n", type,
+                        unit, 100.0 * share[0], 100.0 * share[1]);
+            EXPECT_GT(support::difference(*exact, *lit, 8.0 / 255.0).getShareOver(), 0.03);
+            // Facets of the balls that look away from the light differ by the offset of the map.
+            EXPECT_LT(share[1], 0.005) << type << ", " << unit;
+            EXPECT_LT(share[1], 0.5 * share[0]) << type << ", " << unit;
+        }
 }
 
 TEST(MapShadows, noMapsAreMadeWithoutACaster)
