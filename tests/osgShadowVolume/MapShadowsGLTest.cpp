@@ -468,6 +468,31 @@ TEST(MapShadows, largeMapsAgreeWithVolumesAtAnyScale)
         }
 }
 
+TEST(MapShadows, aSecondContextWithSamplesHasMapsOfItsOwn)
+{
+    OSGKITS_NEED_GL(viewer());
+    osg::ref_ptr<ShadowedScene> scene = shadowed();
+    scene->addChild(floorGeode());
+    scene->addChild(occluder(1.0));
+    scene->addChild(lightSource(0, osg::Vec4(2.2f, 0.3f, 1, 0)));
+    const osg::ref_ptr<osg::Image> first = picture(*scene, fromAbove());
+    support::HeadlessSettings settings{Width, Height};
+    settings.samples = 4;
+    {
+        support::HeadlessViewer other(settings);
+        OSGKITS_NEED_GL(other);
+        other.getViewer().setLightingMode(osg::View::NO_LIGHT);
+        const osg::ref_ptr<osg::Image> second = other.render(scene, fromAbove(), Width, Height, 2);
+        ASSERT_TRUE(first && second);
+        // Edges of the square alone are smooth: 8 units of 32 pixels, in part against the shadow.
+        EXPECT_LT(support::difference(*first, *second, 2.0 / 255.0).getShareOver(), 0.01);
+    }
+    viewer().getViewer().getCamera()->getGraphicsContext()->makeCurrent();
+    const osg::ref_ptr<osg::Image> again = picture(*scene, fromAbove());
+    ASSERT_TRUE(again);
+    EXPECT_EQ(support::difference(*first, *again, 0.0).pixelsOver, 0u);
+}
+
 TEST(MapShadows, noMapsAreMadeWithoutACaster)
 {
     OSGKITS_NEED_GL(viewer());
