@@ -137,16 +137,16 @@ HardCase scaled(HardCase hard, double factor)
 TEST(SilhouetteTest, aTriangleFacesWhoSeesItCounterclockwise)
 {
     const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-    EXPECT_EQ(facing(a, b, c, {0, 0, 1, 0}, 1.0f), 1);
-    EXPECT_EQ(facing(a, b, c, {0, 0, -1, 0}, 1.0f), -1);
-    EXPECT_EQ(facing(a, b, c, {3, 4, 0, 1}, 1.0f), 0);
-    EXPECT_EQ(facing(a, b, c, {3, 4, 5, 1}, 1.0f), 1);
+    EXPECT_EQ(facing(a, b, c, {{0, 0, 1, 0}, {}}, 1.0f), 1);
+    EXPECT_EQ(facing(a, b, c, {{0, 0, -1, 0}, {}}, 1.0f), -1);
+    EXPECT_EQ(facing(a, b, c, {{3, 4, 0, 1}, {}}, 1.0f), 0);
+    EXPECT_EQ(facing(a, b, c, {{3, 4, 5, 1}, {}}, 1.0f), 1);
 }
 
 TEST(SilhouetteTest, notANumberIsNoSide)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 1, 0}, 1.0f), 0);
+    EXPECT_EQ(facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {{nan, 0, 1, 0}, {}}, 1.0f), 0);
 }
 
 TEST(SilhouetteTest, aTriangleHasAVolumeOfThreeSidesAndTwoCaps)
@@ -154,14 +154,14 @@ TEST(SilhouetteTest, aTriangleHasAVolumeOfThreeSidesAndTwoCaps)
     EdgeMeshBuilder builder;
     builder.addTriangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
     const EdgeMesh mesh = builder.build();
-    const Silhouette point = silhouetteOf(mesh, {0.2f, 0.2f, 1, 1}, 1);
+    const Silhouette point = silhouetteOf(mesh, {{0.2f, 0.2f, 1, 1}, {}}, 1);
     ASSERT_EQ(point.sides.size(), 1u);
     EXPECT_EQ(point.sides[0].weight, 1u);
     EXPECT_EQ(point.sides[0].indices.size(), 3u * 6u);
     // Vertices ascend, so the light above sees 0, 1, 2 clockwise.
     EXPECT_EQ(point.nearCaps, (std::vector<std::uint32_t>{0, 2, 1}));
     EXPECT_EQ(point.farCaps, (std::vector<std::uint32_t>{4, 5, 3}));
-    const Silhouette directional = silhouetteOf(mesh, {0, 0, 1, 0}, 1);
+    const Silhouette directional = silhouetteOf(mesh, {{0, 0, 1, 0}, {}}, 1);
     EXPECT_EQ(directional.sides[0].indices.size(), 3u * 3u);
     EXPECT_TRUE(directional.farCaps.empty());
 }
@@ -171,13 +171,13 @@ TEST(SilhouetteTest, trianglesOnOneSideOfAnEdgeAddUp)
     HardCase hard = book(5);
     const EdgeMesh mesh = hard.build();
     std::map<std::uint32_t, std::size_t> triangles;
-    for (const Silhouette::Sides& sides : silhouetteOf(mesh, {100, 1, 0.3f, 1}, 1).sides)
+    for (const Silhouette::Sides& sides : silhouetteOf(mesh, {{100, 1, 0.3f, 1}, {}}, 1).sides)
         triangles[sides.weight] = sides.indices.size() / 3;
     // Three pages on one side of the spine, two on the other: it counts once, as each outer edge.
     EXPECT_EQ(triangles[1], 2u * 11u);
     HardCase twice = hard;
     twice.triangles.insert(twice.triangles.end(), hard.triangles.begin(), hard.triangles.end());
-    const Silhouette doubled = silhouetteOf(twice.build(), {100, 1, 0.3f, 1}, 1);
+    const Silhouette doubled = silhouetteOf(twice.build(), {{100, 1, 0.3f, 1}, {}}, 1);
     ASSERT_EQ(doubled.sides.size(), 1u);
     EXPECT_EQ(doubled.sides[0].weight, 2u);
 }
@@ -246,8 +246,10 @@ TEST(SilhouetteTest, lightsOfAnySizeStayFinite)
     for (const double size : {1e-300, 1e-30, 1.0, 1e30, 1e300})
     {
         const MeshLight light = toMeshLight(mesh, glm::dvec4(size, 2 * size, 3 * size, size));
-        EXPECT_GT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 0.1f) << size;
-        EXPECT_LT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 10.0f) << size;
+        EXPECT_GT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 0.1f)
+            << size;
+        EXPECT_LT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 10.0f)
+            << size;
         EXPECT_NEAR(light.light.y / light.light.x, 2.0, 1e-6);
     }
     EXPECT_EQ(toMeshLight(mesh, {1e60, 0, 0, 1}).light.w, 0.0f);
@@ -302,7 +304,8 @@ TEST(SilhouetteTest, wrongSignsAreRareAndOnlyWhereTheLightIsInThePlane)
                     ++wrong;
                     // The determinant over the product of the vectors' lengths: 1 for a corner of a
                     // cube.
-                    const glm::dvec3 v = glm::dvec3(l.light) + glm::dvec3(l.rest) - glm::dvec3(a) * double(l.light.w);
+                    const glm::dvec3 v = glm::dvec3(l.light) + glm::dvec3(l.rest) -
+                                         glm::dvec3(a) * double(l.light.w);
                     const glm::dvec3 u = glm::dvec3(c) - glm::dvec3(a);
                     const glm::dvec3 e = glm::dvec3(b) - glm::dvec3(a);
                     worst = std::max(worst, std::abs(glm::dot(glm::cross(u, v), e)) /
@@ -341,7 +344,7 @@ TEST(SilhouetteTest, theNumberOfThreadsMakesNoDifference)
 
 TEST(SilhouetteTest, anEmptyMeshHasNone)
 {
-    const Silhouette silhouette = silhouetteOf(EdgeMesh(), {0, 0, 1, 1}, 4);
+    const Silhouette silhouette = silhouetteOf(EdgeMesh(), {{0, 0, 1, 1}, {}}, 4);
     EXPECT_TRUE(silhouette.sides.empty());
     EXPECT_TRUE(silhouette.nearCaps.empty());
 }
