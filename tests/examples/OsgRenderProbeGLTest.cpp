@@ -109,6 +109,14 @@ TEST_F(OsgRenderProbeGLTest, unknownQuantitiesFailByName)
                 "candela=<number>");
 }
 
+TEST_F(OsgRenderProbeGLTest, switchesStandInForWhatTheModelDoesNotState)
+{
+    const support::ProcessResult result =
+        run({"dark.osgt", "--probe", "0,0,1", "--metres-per-unit", "1", "--candela", "50"});
+    EXPECT_EQ(result.errors, "");
+    EXPECT_EQ(result.output, "probe 0,0,1 normal 0,0,1: 50 lux = 50 (light 5 'lamp')\n");
+}
+
 TEST_F(OsgRenderProbeGLTest, wrongSwitchesAreNamed)
 {
     expectFails({"lamp.osgt", "--probe", "1,2"}, 2, "'1,2' is neither x,y,z nor x,y,z,nx,ny,nz");
