@@ -3,8 +3,11 @@
 
 #include <osgShadowVolume/IlluminanceView.h>
 #include <osgShadowVolume/LitPass.h>
+#include <osgShadowVolume/MapShadows.h>
+#include <osgShadowVolume/ShadowKeys.h>
 #include <osgShadowVolume/VolumeShadows.h>
 
+#include <osgGA/EventVisitor>
 #include <osgUtil/CullVisitor>
 
 namespace osgShadowVolume
@@ -14,6 +17,8 @@ ShadowedScene::ShadowedScene()
     : _resources(std::make_unique<ShadowResources>()),
       _illuminance(std::make_unique<IlluminanceView>())
 {
+    // Event traversals visit only what asks for them.
+    setNumChildrenRequiringEventTraversal(1);
 }
 
 ShadowedScene::ShadowedScene(const ShadowedScene& other, const osg::CopyOp& copyop)
@@ -21,9 +26,19 @@ ShadowedScene::ShadowedScene(const ShadowedScene& other, const osg::CopyOp& copy
       _resources(std::make_unique<ShadowResources>()),
       _illuminance(std::make_unique<IlluminanceView>())
 {
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
 ShadowedScene::~ShadowedScene() = default;
+
+void ShadowedScene::traverse(osg::NodeVisitor& visitor)
+{
+    if (osgGA::EventVisitor* events = visitor.asEventVisitor(); events && getKeys())
+        answerKeys(*this, *events);
+    LitScene::traverse(visitor);
+    if (osgUtil::CullVisitor* culling = visitor.asCullVisitor())
+        _illuminance->cullLegend(*culling);
+}
 
 void ShadowedScene::releaseGLObjects(osg::State* state) const
 {
@@ -38,18 +53,13 @@ void ShadowedScene::resizeGLObjectBuffers(unsigned int maxSize)
     _illuminance->resizeGLObjectBuffers(maxSize);
 }
 
-void ShadowedScene::traverse(osg::NodeVisitor& visitor)
-{
-    LitScene::traverse(visitor);
-    if (auto* cullVisitor = visitor.asCullVisitor())
-        _illuminance->cullLegend(*cullVisitor);
-}
-
 std::unique_ptr<osgMultiRender::SurfacePass> ShadowedScene::createPass() const
 {
     std::unique_ptr<LightShadows> shadows;
     if (_settings.shadows == Shadows::VOLUMES)
         shadows = std::make_unique<VolumeShadows>(_settings, *_resources);
+    else if (_settings.shadows == Shadows::MAP)
+        shadows = std::make_unique<MapShadows>(_settings, *_resources);
     auto pass = std::make_unique<LitPass>(*this, _settings, std::move(shadows));
     pass->setIlluminance(_illuminance.get());
     return pass;

@@ -25,6 +25,9 @@ public:
                   const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
     META_Node(osgShadowVolume, ShadowedScene)
 
+    /// Under an event traversal also answers to keys; see ShadowKeys.h.
+    void traverse(osg::NodeVisitor& visitor) override;
+
     void setSettings(const ShadowSettings& settings) { _settings = settings; }
     const ShadowSettings& getSettings() const { return _settings; }
 
@@ -86,7 +89,6 @@ public:
     void setLux(double lux) { _settings.lux = lux; }
     double getLux() const { return _settings.lux; }
 
-    void traverse(osg::NodeVisitor& visitor) override;
     void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 

@@ -20,40 +20,6 @@ using Pass = ShadowPasses::Pass;
 namespace
 {
 
-/// The draw state that a visit to other framebuffers changes.
-class FramebufferVisit
-{
-public:
-    explicit FramebufferVisit(const osg::GLExtensions& gl) : _gl(gl)
-    {
-        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
-        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
-        glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
-        glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
-        _scissor = glIsEnabled(GL_SCISSOR_TEST);
-        glDisable(GL_SCISSOR_TEST);
-        glClearDepth(1.0);
-    }
-    ~FramebufferVisit()
-    {
-        _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
-        _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
-        glClearColor(_color[0], _color[1], _color[2], _color[3]);
-        glClearDepth(_depth);
-        if (_scissor)
-            glEnable(GL_SCISSOR_TEST);
-    }
-    FramebufferVisit(const FramebufferVisit&) = delete;
-    FramebufferVisit& operator=(const FramebufferVisit&) = delete;
-
-private:
-    const osg::GLExtensions& _gl;
-    GLint _draw = 0, _read = 0;
-    GLfloat _color[4];
-    GLdouble _depth = 1.0;
-    GLboolean _scissor = GL_FALSE;
-};
-
 void drawScreen(osg::State& state)
 {
     // gl_VertexID alone places the corners.

@@ -220,6 +220,7 @@ bool parseProcess(const std::vector<std::string>& words, ProcessArguments& argum
 {
     Switches switches;
     switches["--help"] = switches["-h"] = flag(arguments.help);
+    switches["--list-keys"] = flag(arguments.listKeys);
     switches["--html"] = text(arguments.page);
     switches["--backend"] = {1,
                              [&](const Values& v) { return takeBackend(v[0], arguments.backend); }};

@@ -66,6 +66,7 @@ struct ProcessArguments
     std::map<std::string, std::string> definitions;
     std::string page; ///< HTML index of all renders; empty: none.
     bool help = false;
+    bool listKeys = false;
     std::vector<std::string> rest; ///< The words that concern a render.
 };
 
@@ -80,5 +81,8 @@ bool parseRender(const std::vector<std::string>& words, Arguments& arguments, st
 
 /// Prints all switches, osgviewer's too.
 void printHelp();
+
+/// Prints the keys that the kits' scenes answer to in osgviewer. False where no kit is found.
+bool printKeys();
 
 } // namespace osgrender

@@ -2,6 +2,7 @@
 #include "Arguments.h"
 
 #include <osg/ArgumentParser>
+#include <osgDB/Registry>
 #include <osgViewer/Viewer>
 
 #include <cstdio>
@@ -77,6 +78,7 @@ Process
                        Switches beside it are put before those of each line
   -D NAME=VALUE        definition for ${NAME}
   --html FILE          gallery page of a script's renders
+  --list-keys          list the keys that the kits' scenes answer to in osgviewer
   --help               this
 
 An empty model renders the background, with a warning. --screen is accepted and has no effect:
@@ -104,6 +106,16 @@ void printHelp()
                             "--borderless-window <x y w h>", "-h or --help"})
         options.erase(own);
     usage.write(std::cout, options);
+}
+
+bool printKeys()
+{
+    // A kit enters its keys when its library is loaded; osgviewer's own are not there.
+    osgDB::Registry::instance()->getReaderWriterForExtension("shadowvolume");
+    const auto& bindings = osg::ApplicationUsage::instance()->getKeyboardMouseBindings();
+    for (const auto& [key, help] : bindings)
+        std::printf("%s  %s\n", key.c_str(), help.c_str());
+    return !bindings.empty();
 }
 
 } // namespace osgrender
