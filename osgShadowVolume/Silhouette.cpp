@@ -94,9 +94,12 @@ Part findPart(const EdgeMesh& mesh, const glm::vec4& light, std::size_t number, 
     return part;
 }
 
-void append(std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& more)
+void append(std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& more)
 {
-    list.insert(list.end(), more.begin(), more.end());
+    if (list.empty())
+        list.swap(more);
+    else
+        list.insert(list.end(), more.begin(), more.end());
 }
 
 std::size_t countParts(const EdgeMesh& mesh, unsigned int threads)
@@ -176,7 +179,7 @@ Silhouette silhouetteOf(const EdgeMesh& mesh, const glm::vec4& light, unsigned i
         found.push_back(other.get());
     // Group by group, so that the order is that of the mesh whatever the number of parts.
     for (std::size_t group = 0; group <= mesh.groups.size(); ++group)
-        for (const std::vector<Part>& lists : found)
+        for (std::vector<Part>& lists : found)
         {
             for (std::size_t weight = 1; weight != sides.size(); ++weight)
                 append(sides[weight], lists[group].sides[weight]);

@@ -42,7 +42,7 @@ struct Silhouette
                                          ///< directional light, else two.
     std::vector<std::uint32_t> nearCaps; ///< What faces the light, weight 1.
     std::vector<std::uint32_t> farCaps;  ///< The same at infinity; empty for a directional light,
-                                        ///< whose volume ends in one point.
+                                         ///< whose volume ends in one point.
 };
 
 /// Finds it, in `threads` threads at most where that pays; 0 stands for those that the machine
