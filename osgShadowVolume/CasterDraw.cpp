@@ -46,7 +46,7 @@ void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
                        determinant < 0.0 ? -1.0f : 1.0f});
 }
 
-void CasterDraw::run(bool zFail)
+void CasterDraw::run(ShadowPasses::Count count)
 {
     if (_placed.empty())
         return;
@@ -54,16 +54,16 @@ void CasterDraw::run(bool zFail)
     drawPass(onCpu                                  ? Pass::TriangleSides
              : _view.technique == Technique::TESS ? Pass::TessSides
                                                     : Pass::GeometrySides,
-             zFail);
-    if (zFail)
-        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, zFail);
+             count);
+    if (count == ShadowPasses::Count::ZFail)
+        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, count);
     _placed.clear();
 }
 
-void CasterDraw::drawPass(Pass pass, bool zFail)
+void CasterDraw::drawPass(Pass pass, ShadowPasses::Count count)
 {
     osg::State& state = *_view.renderInfo.getState();
-    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, zFail));
+    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, count));
     state.apply();
     state.applyProjectionMatrix(_view.projection.get());
     if (state.getLastAppliedProgramObject())
@@ -78,6 +78,7 @@ void CasterDraw::drawPass(Pass pass, bool zFail)
 void CasterDraw::place(const Placed& placed)
 {
     static const unsigned int light = osg::Uniform::getNameID("osgsv_localLight");
+    static const unsigned int color = osg::Uniform::getNameID("osgsv_color");
     static const unsigned int rest = osg::Uniform::getNameID("osgsv_lightRest");
     osg::State& state = *_view.renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
@@ -86,6 +87,7 @@ void CasterDraw::place(const Placed& placed)
     gl->glUniform3fv(program.getUniformLocation(rest), 1, &placed.light.rest[0]);
     setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
     setUniform(state, "osgsv_handedness", placed.handedness);
+    gl->glUniform4fv(program.getUniformLocation(color), 1, _color.ptr());
     state.applyModelViewMatrix(placed.modelview.get());
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();

@@ -28,8 +28,10 @@ enum class VolumePart
 OSGSHADOWVOLUME_EXPORT std::string volumeShaderText(VolumePart part, osg::Shader::Type stage,
                                                     int glslVersion);
 
-/// Makes the program; nothing is compiled yet.
+/// Makes the program; nothing is compiled yet. One that is shown writes the uniform `osgsv_color`
+/// where the multiplicity is not 0, instead of counts.
 OSGSHADOWVOLUME_EXPORT osg::ref_ptr<osg::Program> makeVolumeProgram(VolumePart part,
-                                                                    int glslVersion);
+                                                                    int glslVersion,
+                                                                    bool shown = false);
 
 } // namespace osgShadowVolume
