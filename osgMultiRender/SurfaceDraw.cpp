@@ -47,6 +47,26 @@ void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, s
         state.popStateSet();
 }
 
+void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+                                const std::function<bool(const SurfaceItem&)>& select)
+{
+    osg::State& state = *renderInfo.getState();
+    const bool hasProgram = over.getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
+    std::vector<SurfaceItem> selected;
+    forEachItem(
+        [&](const SurfaceItem& item)
+        {
+            if (!item.variant || !select(item))
+                return;
+            selected.push_back(item);
+            if (hasProgram)
+                selected.back().variant = nullptr;
+        });
+    state.pushStateSet(&over);
+    draw(renderInfo, selected.data(), selected.size());
+    state.popStateSet();
+}
+
 void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
                            osgUtil::RenderLeaf* previous)
 {

@@ -44,6 +44,7 @@ public:
         else
             for (const osgUtil::RenderLeaf* leaf : frame.getLeaves(bin))
                 _dynamic = _dynamic || leaf->_dynamic;
+        _dynamic = _dynamic || frame.getPass().isDynamic();
     }
 
     void render(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf* previous) override
@@ -57,6 +58,7 @@ public:
             _frame->drawBin(renderInfo, _bin);
         else
             _frame->drawLeaf(renderInfo, _bin, _single);
+        _frame->proxyDrawn(renderInfo);
         // The next leaf starts from our StateGraph.
         osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
         if (_dynamic)
@@ -160,6 +162,12 @@ void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
     mirror(graph, *_private, *_bin);
 }
 
+void SurfaceFrame::addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy)
+{
+    graph.addLeaf(proxy);
+    ++_proxies;
+}
+
 void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
                           osgUtil::RenderBin& to)
 {
@@ -177,11 +185,11 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
             to.addStateGraph(graph);
         if (isOrdered(to))
             for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-                graph->addLeaf(
-                    new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(), *_bins[bin][i]));
+                addProxy(*graph, new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(),
+                                               *_bins[bin][i]));
         else
-            graph->addLeaf(new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
-                                         *_bins[bin].front()));
+            addProxy(*graph, new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
+                                           *_bins[bin].front()));
         _isOrdered.push_back(isOrdered(to));
     }
     for (const auto& [number, inner] : from.getRenderBinList())
@@ -337,12 +345,14 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
 void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
 {
     item.leaf = &leaf;
+    item.state = surface.state;
     if (surface.beyond)
     {
         ++surface.beyond->second;
         return;
     }
-    if (surface.key.lighting == LightingMode::Pixel)
+    if (!surface.key.program &&
+        (surface.key.lighting == LightingMode::Pixel || _pass->classifiesUnlit()))
     {
         const std::uint32_t kit = surface.key.kit;
         surface.key.kit = 0;
@@ -445,7 +455,22 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         if (!std::is_sorted(_items[bin].begin(), _items[bin].end(), byOrder))
             std::stable_sort(_items[bin].begin(), _items[bin].end(), byOrder);
     }
+    if (version >= 3.295f)
+        _pass->drawBefore(renderInfo, *this);
     writePlan(renderInfo);
+}
+
+void SurfaceFrame::proxyDrawn(osg::RenderInfo& renderInfo)
+{
+    if (--_proxies == 0)
+        _pass->drawn(renderInfo);
+}
+
+void SurfaceFrame::forEachItem(const std::function<void(const SurfaceItem&)>& f) const
+{
+    for (const auto& items : _items)
+        for (const SurfaceItem& item : items)
+            f(item);
 }
 
 void SurfaceFrame::drawBin(osg::RenderInfo& renderInfo, std::size_t bin)

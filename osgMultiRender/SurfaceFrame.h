@@ -22,6 +22,7 @@ struct SurfaceItem
     SurfaceVariant* variant = nullptr; ///< Null: the leaf keeps its own state.
     std::uint32_t number = 0;          ///< The kit's number of the leaf.
     std::uint32_t order = 0;           ///< Of the variant, by first appearance in the frame.
+    const SurfaceState* state = nullptr; ///< Of the leaf; null below OpenGL 3.3.
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -34,6 +35,9 @@ class OSGMULTIRENDER_EXPORT SurfaceFrame : public osg::Referenced
 public:
     /// `stage` collects the subgraph; the frame owns it.
     SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil::RenderStage& stage);
+
+    SurfacePass& getPass() { return *_pass; }
+    SurfaceGroup& getGroup() { return *_group; }
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
@@ -55,12 +59,25 @@ public:
     void drawBin(osg::RenderInfo& renderInfo, std::size_t bin);
     void drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::size_t leaf);
 
+    /// To be called once by each proxy when it has been drawn.
+    void proxyDrawn(osg::RenderInfo& renderInfo);
+
+    /// Calls `f` for each leaf. Only from SurfacePass::end() on.
+    void forEachItem(const std::function<void(const SurfaceItem&)>& f) const;
+
+    /// Draws the leaves that `select` picks into the current framebuffer, with `over` over their
+    /// own state: a StateSet whose attributes and modes have OVERRIDE. Where it has a Program, this
+    /// one draws; where it has none, the leaf's variant does. Leaves without a variant are left out.
+    void drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+                      const std::function<bool(const SurfaceItem&)>& select);
+
     const std::vector<osgUtil::RenderLeaf*>& getLeaves(std::size_t bin) const { return _bins[bin]; }
 
 protected:
     ~SurfaceFrame() override;
 
 private:
+    void addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy);
     void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
     /// What the leaves of one StateGraph have in common.
@@ -89,6 +106,7 @@ private:
     std::unique_ptr<SurfacePass> _pass;
     std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
     std::vector<bool> _isOrdered; ///< One a bin: by depth or traversal, one proxy a leaf.
+    std::size_t _proxies = 0;     ///< Still to be drawn.
 
     bool _prepared = false;
     float _languageVersion = 0.0f;

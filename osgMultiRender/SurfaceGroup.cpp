@@ -81,6 +81,12 @@ struct ScopeMark
 
 SurfacePass::~SurfacePass() = default;
 
+void SurfacePass::cull(osgUtil::CullVisitor&, SurfaceGroup&) {}
+
+void SurfacePass::drawBefore(osg::RenderInfo&, SurfaceFrame&) {}
+
+void SurfacePass::drawn(osg::RenderInfo&) {}
+
 SurfaceGroup::SurfaceGroup() = default;
 
 SurfaceGroup::SurfaceGroup(const SurfaceGroup& other, const osg::CopyOp& copyop)
@@ -110,6 +116,7 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
     osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     osg::Group::traverse(visitor);
+    frame->getPass().cull(visitor, *this);
     visitor.setCurrentRenderBin(bin);
     visitor.popStateSet();
     frame->insertProxies(proxies);

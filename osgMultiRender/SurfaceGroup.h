@@ -23,6 +23,7 @@ namespace osgMultiRender
 {
 
 class SurfaceFrame;
+class SurfaceGroup;
 
 /// A kit's part in the draw of one view of one frame. Lives in the draw thread.
 class OSGMULTIRENDER_EXPORT SurfacePass
@@ -30,16 +31,30 @@ class OSGMULTIRENDER_EXPORT SurfacePass
 public:
     virtual ~SurfacePass();
 
+    /// In the cull thread, when the subgraph has been traversed; `visitor` still stands at `group`.
+    virtual void cull(osgUtil::CullVisitor& visitor, SurfaceGroup& group);
+    /// Whether the draw reads what the update may change, beside the leaves in view. Called after
+    /// cull().
+    virtual bool isDynamic() const { return false; }
+
+    // The rest is called in the draw thread.
+
     /// Where light is evaluated this frame.
     virtual LightingMode getLighting() const = 0;
     /// Collects what the frame needs; called once before anything else.
     virtual void begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame) = 0;
     /// Says which kit bits a leaf's key gets, and gives the leaf a number for apply(). Only for
-    /// leaves whose key has LightingMode::Pixel.
+    /// leaves whose key has LightingMode::Pixel, and for others if classifiesUnlit().
     virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                           SurfaceKey& key, std::uint32_t& number) = 0;
+    virtual bool classifiesUnlit() const { return false; }
     /// After the last classify().
     virtual void end(osg::RenderInfo& renderInfo) = 0;
+    /// After end(), before the first leaf is drawn: what is drawn elsewhere first. Leaves the
+    /// framebuffer, the viewport and osg::State's stack as they were.
+    virtual void drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame);
+    /// The last leaf of the frame has been drawn.
+    virtual void drawn(osg::RenderInfo& renderInfo);
     /// The GLSL that a key with these kit bits needs.
     virtual SurfaceSnippet makeSnippet(const SurfaceKey& key) const = 0;
     /// Called before each run of leaves: since the last one other passes may have used the same

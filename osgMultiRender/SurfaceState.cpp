@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/SurfaceState.h>
 
+#include <osg/Depth>
 #include <osg/PointSprite>
 #include <osg/Texture>
 #include <osg/TextureCubeMap>
@@ -49,6 +50,12 @@ std::uint32_t bitOfMode(osg::StateAttribute::GLMode mode)
         return SurfaceState::Fog;
     case GL_COLOR_SUM:
         return SurfaceState::ColorSum;
+    case GL_BLEND:
+        return SurfaceState::Blend;
+    case GL_DEPTH_TEST:
+        return SurfaceState::DepthTest;
+    case GL_ALPHA_TEST:
+        return SurfaceState::AlphaTest;
     case GL_VERTEX_PROGRAM_ARB:
     case GL_FRAGMENT_PROGRAM_ARB:
         return SurfaceState::AssemblyProgram;
@@ -104,6 +111,8 @@ int slotOfAttribute(osg::StateAttribute::Type type)
         return SurfaceState::Program;
     case osg::StateAttribute::POINT:
         return SurfaceState::Point;
+    case osg::StateAttribute::DEPTH:
+        return SurfaceState::Depth;
     default:
         return -1;
     }
@@ -242,6 +251,12 @@ bool SurfaceState::isLightOn(unsigned int number) const
         std::lower_bound(_extraLights->begin(), _extraLights->end(), number,
                          [](const ExtraLight& light, unsigned int n) { return light.number < n; });
     return found != _extraLights->end() && found->number == number && found->on;
+}
+
+bool SurfaceState::isOpaque() const
+{
+    const auto* depth = static_cast<const osg::Depth*>(get(Depth));
+    return isOn(DepthTest) && !isOn(Blend) && (!depth || depth->getWriteMask());
 }
 
 std::vector<unsigned int> SurfaceState::getExtraLights(bool onlyOn) const

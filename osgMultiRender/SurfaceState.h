@@ -38,7 +38,10 @@ public:
         AssemblyProgram = 1u << 5, ///< GL_VERTEX_PROGRAM_ARB or GL_FRAGMENT_PROGRAM_ARB.
         PointSprites = 1u << 6,    ///< osg::PointSprite sets it as a mode of all units.
         Light0 = 1u << 8,          ///< GL_LIGHT0 to GL_LIGHT7.
-        ClipPlane0 = 1u << 16      ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE7.
+        ClipPlane0 = 1u << 16,     ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE7.
+        Blend = 1u << 24,
+        DepthTest = 1u << 25,
+        AlphaTest = 1u << 26
     };
 
     /// Modes that are tracked for each texture unit.
@@ -65,6 +68,7 @@ public:
         ShadeModel,
         Program,
         Point,
+        Depth,
         NumAttributes
     };
 
@@ -104,6 +108,9 @@ public:
     std::vector<unsigned int> getExtraLights(bool onlyOn = true) const;
     /// Whether two states switch the same lights above GL_LIGHT7 for sure (equal pointers).
     const void* getExtraLightsIdentity() const { return _extraLights.get(); }
+
+    /// Hides what lies behind it: it is not blended, and tests and writes depth.
+    bool isOpaque() const;
 
     /// Whether a StateSet of the path holds a Program with PROTECTED.
     bool isProgramProtected() const { return _programProtected; }

@@ -16,6 +16,10 @@ namespace
 /// The main of a kit that wants nothing but the surface's colour.
 constexpr char colorMain[] = "layout(location = 0) out vec4 osgmr_out0;\n"
                              "void main()\n{\n    osgmr_out0 = osgmr_surface();\n}\n";
+/// The main of a kit that writes something else.
+constexpr char outputMain[] =
+    "layout(location = 0) out vec4 osgmr_out0;\n"
+    "void main()\n{\n    osgmr_out0 = osgmr_output(osgmr_surface());\n}\n";
 
 } // namespace
 
@@ -29,7 +33,8 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
     osg::ref_ptr<osg::Shader> vertex =
         new osg::Shader(osg::Shader::VERTEX, version + source.vertex);
     osg::ref_ptr<osg::Shader> fragment = new osg::Shader(
-        osg::Shader::FRAGMENT, version + source.fragment + snippet.fragment + colorMain);
+        osg::Shader::FRAGMENT, version + source.fragment + snippet.fragment + snippet.output +
+                                       (snippet.output.empty() ? colorMain : outputMain));
     vertex->setName("osgMultiRender vertex, " + name);
     fragment->setName("osgMultiRender fragment, " + name);
     _program->setName("osgMultiRender " + name);

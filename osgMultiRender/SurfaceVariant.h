@@ -19,6 +19,9 @@ namespace osgMultiRender
 struct SurfaceSnippet
 {
     std::string fragment; ///< GLSL after the surface function; may define osgmr_addLights().
+    /// GLSL that defines vec4 osgmr_output(vec4 surface): what is written for a surface colour.
+    /// Empty: the colour itself.
+    std::string output;
     std::vector<std::pair<std::string, int>> samplers; ///< Uniform name and texture unit.
 };
 

@@ -25,6 +25,7 @@ EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
     EyeLight eye;
     eye.number = light.getLightNum();
     eye.name = light.getName();
+    eye.isHeadlight = !matrix;
     eye.ambient = toGlm(light.getAmbient());
     eye.diffuse = toGlm(light.getDiffuse());
     eye.specular = toGlm(light.getSpecular());

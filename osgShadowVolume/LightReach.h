@@ -29,6 +29,8 @@ struct EyeLight
     Type type = Directional;
     int number = 0;           ///< LightSource number, GL_LIGHT0 + number.
     std::string name;         ///< For plans; may be empty.
+    bool castsShadow = true;
+    bool isHeadlight = false; ///< Of the viewer: placed in eye coordinates.
     glm::dvec3 position{0.0}; ///< Directional: the unit vector towards the light.
     glm::vec3 ambient{0.0f};
     glm::vec3 diffuse{0.0f};

@@ -56,7 +56,7 @@ void update(osg::Texture2D& texture, int width, int rows, GLint internalFormat, 
 
 } // namespace
 
-void packLight(const EyeLight& light, float* to)
+void packLight(const EyeLight& light, float shadow, float* to)
 {
     const float cosine =
         static_cast<float>(std::cos(glm::radians(double(light.spotCutoffDegrees))));
@@ -81,7 +81,7 @@ void packLight(const EyeLight& light, float* to)
                                           float(light.spotDirection.z),
                                           cosine,
                                           light.spotExponent,
-                                          0.0f,
+                                          shadow,
                                           0.0f,
                                           0.0f};
     std::memcpy(to, values, sizeof(values));
@@ -97,6 +97,7 @@ LitScene::LightTextures::Context::Context()
 
 void LitScene::LightTextures::Context::set(const LitPass* pass,
                                            const std::vector<const EyeLight*>& eyeLights,
+                                           const std::vector<float>& shadows,
                                            const std::vector<std::int32_t>& list)
 {
     _pass = pass;
@@ -105,7 +106,7 @@ void LitScene::LightTextures::Context::set(const LitPass* pass,
         std::max<int>(1, int((eyeLights.size() + lightsPerRow - 1) / lightsPerRow));
     std::vector<float> data(std::size_t(lightRows) * lightsPerRow * FloatsPerLight, 0.0f);
     for (std::size_t i = 0; i < eyeLights.size(); ++i)
-        packLight(*eyeLights[i], &data[i * FloatsPerLight]);
+        packLight(*eyeLights[i], shadows[i], &data[i * FloatsPerLight]);
     update(*lights, lightsPerRow * texelsPerLight, lightRows, GL_RGBA32F_ARB, GL_RGBA, GL_FLOAT,
            data.data(), data.size() * sizeof(float));
 

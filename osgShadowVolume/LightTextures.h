@@ -17,7 +17,8 @@ class LitPass;
 
 /// Floats of a light in the layout of shaders/lights.frag: six vec4.
 constexpr int FloatsPerLight = 24;
-void packLight(const EyeLight& light, float* to);
+/// `shadow` is the light's index among those that cast visible shadows, -1 for none.
+void packLight(const EyeLight& light, float shadow, float* to);
 
 /// The light data of a LitScene on the GPU, one set a graphics context.
 ///
@@ -38,6 +39,7 @@ public:
         Context();
         /// Takes the light data of a pass. Draw thread of the context only.
         void set(const LitPass* pass, const std::vector<const EyeLight*>& eyeLights,
+                 const std::vector<float>& shadows,
                  const std::vector<std::int32_t>& list);
         /// Whether `pass` was the last to set its data.
         bool isOf(const LitPass* pass) const { return _pass == pass; }

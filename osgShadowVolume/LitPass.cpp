@@ -31,8 +31,12 @@ enum KitBits : std::uint32_t
 {
     Listed = 1,
     Gridded = 2,
+    Shadowed = 4,    ///< A light of the leaf may be taken away.
+    Transparent = 8, ///< Looks visibility up by its depth.
     NumberShift = 4,
-    TypesShift = 8
+    TypesShift = 8,
+    TechniqueShift = 24, ///< LightShadows::getVariantBits(), three bits.
+    ShowShift = 27       ///< Show, three bits.
 };
 
 std::uint32_t numberOfUniformLights(std::uint32_t kit)
@@ -81,10 +85,26 @@ bool sphereOf(const osgUtil::RenderLeaf& leaf, glm::dvec3& center, double& radiu
 
 } // namespace
 
-LitPass::LitPass(const LitScene& scene)
+LitPass::LitPass(const LitScene& scene) : LitPass(scene, ShadowSettings(), nullptr) {}
+
+LitPass::LitPass(const LitScene& scene, const ShadowSettings& settings,
+                 std::unique_ptr<LightShadows> shadows)
     : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope()),
-      _tolerance(scene.getLightTolerance())
+      _tolerance(scene.getLightTolerance()), _settings(settings)
 {
+    if (_lighting == LitScene::Lighting::PIXEL)
+        _shadows = std::move(shadows);
+}
+
+void LitPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
+{
+    if (_shadows)
+        _shadows->cull(visitor, group);
+}
+
+bool LitPass::isDynamic() const
+{
+    return _shadows && _shadows->isDynamic();
 }
 
 LightingMode LitPass::getLighting() const
@@ -101,7 +121,7 @@ LightingMode LitPass::getLighting() const
     return LightingMode::Pixel;
 }
 
-void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
+void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
 {
     std::map<int, std::size_t> lastOf;
     std::vector<EyeLight> all;
@@ -152,8 +172,13 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
     {
         if (!isUsable(light))
             continue;
+        if (_settings.lightShown >= 0 && light.number != _settings.lightShown)
+        {
+            _dropped.push_back({light, "another light is shown alone"});
+            continue;
+        }
         const double reach = reachOf(light, threshold);
-        if (brightness(light) == 0.0)
+        if (brightness(light) == 0.0 && _settings.show != Show::MASK)
             _dropped.push_back({light, "it is black"});
         else if (everythingBounded && !reaches(light, reach, center, radius))
             _dropped.push_back({light, "it reaches nothing in view"});
@@ -161,6 +186,11 @@ void LitPass::begin(osg::RenderInfo&, const osgMultiRender::SurfaceFrame& frame)
             _lights.push_back(light);
     }
     _used.assign(_lights.size(), false);
+    if (_shadows)
+    {
+        _shadows->begin(renderInfo);
+        _shadows->plan(frame, _lights);
+    }
     if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)
         {
@@ -287,8 +317,64 @@ std::uint32_t LitPass::listOf(std::vector<std::uint32_t> lights)
     return found->second;
 }
 
+bool LitPass::classifiesUnlit() const
+{
+    return _settings.show != Show::PICTURE && _settings.show != Show::VOLUMES;
+}
+
 void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
                        std::uint32_t& number)
+{
+    classifyLights(state, leaf, key, number);
+    if (key.kit || classifiesUnlit())
+        addShadowBits(state, leaf, key, number);
+}
+
+void LitPass::addShadowBits(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                            SurfaceKey& key, std::uint32_t number) const
+{
+    if (classifiesUnlit())
+    {
+        key.lighting = LightingMode::Pixel;
+        key.kit |= std::uint32_t(_settings.show) << ShowShift;
+    }
+    const bool lit = (key.kit & ((1u << TypesShift) - 1u)) != 0;
+    if (!_shadows || !lit || !hasShadow(_lists[number]) || !_shadows->receives(leaf, state))
+        return;
+    key.kit |= Shadowed | (_shadows->getVariantBits() << TechniqueShift);
+    if (!state.isOpaque())
+        key.kit |= Transparent;
+}
+
+bool LitPass::hasShadow(const List& list) const
+{
+    const auto has = [this](std::uint32_t light) { return shadowIndexOf(light) >= 0.0f; };
+    if (list.grid)
+        return std::any_of(list.grid->lights.begin(), list.grid->lights.end(), has);
+    return std::any_of(list.lights.begin(), list.lights.end(), has);
+}
+
+float LitPass::shadowIndexOf(std::size_t light) const
+{
+    return _shadows ? float(_shadows->getDecision(light).index) : -1.0f;
+}
+
+void LitPass::drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame)
+{
+    if (_shadows && !_lists.empty())
+        _shadows->draw(renderInfo, frame, _used,
+                       [](const osgMultiRender::SurfaceItem& item)
+                       { return item.variant && (item.variant->getKey().kit & Shadowed); });
+}
+
+void LitPass::drawn(osg::RenderInfo& renderInfo)
+{
+    if (_shadows)
+        _shadows->drawn(renderInfo);
+}
+
+void LitPass::classifyLights(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                             SurfaceKey& key, std::uint32_t& number)
 {
     LightSet& set = setOf(state);
     if (set.forAll)
@@ -361,7 +447,8 @@ void LitPass::end(osg::RenderInfo& renderInfo)
         }
         list.uniforms.resize(list.lights.size() * FloatsPerLight);
         for (std::size_t i = 0; i < list.lights.size(); ++i)
-            packLight(_lights[list.lights[i]], &list.uniforms[i * FloatsPerLight]);
+            packLight(_lights[list.lights[i]], shadowIndexOf(list.lights[i]),
+                      &list.uniforms[i * FloatsPerLight]);
     }
     if (!needsTextures)
         return;
@@ -374,6 +461,7 @@ void LitPass::end(osg::RenderInfo& renderInfo)
         {
             index[i] = static_cast<std::int32_t>(lights.size());
             lights.push_back(&_lights[i]);
+            _gpuShadows.push_back(shadowIndexOf(i));
         }
     for (List& list : _lists)
     {
@@ -396,7 +484,7 @@ void LitPass::end(osg::RenderInfo& renderInfo)
         }
     }
     _textures = _scene._textures->get(renderInfo.getContextID());
-    _textures->set(this, lights, data);
+    _textures->set(this, lights, _gpuShadows, data);
 }
 
 SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
@@ -404,21 +492,28 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
     SurfaceSnippet snippet;
     if (key.lighting != LightingMode::Pixel)
         return snippet;
-    if (!key.kit)
+    const auto show = static_cast<Show>((key.kit >> ShowShift) & 7u);
+    if (show == Show::MASK)
     {
-        snippet.fragment = "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
-                           "inout vec3 diffuse, inout vec3 specular)\n{\n}\n";
-        return snippet;
+        snippet.fragment = "#define OSGSV_MASK\n";
+        snippet.output = "vec4 osgmr_output(vec4 surface)\n{\n"
+                         "    return vec4(vec3(osgsv_lightLeft), 1.0);\n}\n";
+    }
+    if (key.kit & Shadowed)
+    {
+        snippet.fragment += "#define OSGSV_SHADOWS\n";
+        snippet.fragment += _shadows->makeSource((key.kit & Transparent) != 0);
+        snippet.samplers = _shadows->getSamplers();
     }
     const std::uint32_t uniforms = numberOfUniformLights(key.kit);
     if (key.kit & Gridded)
-        snippet.fragment = "#define OSGSV_GRID\n";
-    if (uniforms)
-        snippet.fragment = "#define OSGSV_UNIFORM " + std::to_string(uniforms) + "\n";
+        snippet.fragment += "#define OSGSV_GRID\n";
+    if (!(key.kit & (Gridded | Listed)))
+        snippet.fragment += "#define OSGSV_UNIFORM " + std::to_string(uniforms) + "\n";
     osg::ref_ptr<osg::Shader> shader = osgDB::readRefShaderFileWithFallback(
         osg::Shader::FRAGMENT, "osgShadowVolume/lights.frag", shaders::lights_frag);
     snippet.fragment += shader->getShaderSource();
-    if (uniforms)
+    if (!(key.kit & (Gridded | Listed)))
     {
         snippet.fragment += "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
                             "inout vec3 diffuse, inout vec3 specular)\n{\n";
@@ -429,19 +524,26 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
         snippet.fragment += "}\n";
         return snippet;
     }
-    snippet.samplers = {{"osgsv_lights", LitScene::LightTextures::LightsUnit},
-                        {"osgsv_lists", LitScene::LightTextures::ListsUnit}};
+    snippet.samplers.emplace_back("osgsv_lights", LitScene::LightTextures::LightsUnit);
+    snippet.samplers.emplace_back("osgsv_lists", LitScene::LightTextures::ListsUnit);
     return snippet;
 }
 
 const osg::StateSet* LitPass::startRun()
 {
     _applied.clear();
-    if (!_textures)
-        return nullptr;
-    if (!_textures->isOf(this))
-        _textures->set(this, _gpuLights, _gpuLists);
-    return _textures->stateSet.get();
+    if (_textures && !_textures->isOf(this))
+        _textures->set(this, _gpuLights, _gpuShadows, _gpuLists);
+    const osg::StateSet* lights = _textures ? _textures->stateSet.get() : nullptr;
+    const osg::StateSet* shadows = _shadows ? _shadows->getStateSet() : nullptr;
+    if (!lights || !shadows)
+        return lights ? lights : shadows;
+    if (!_under)
+    {
+        _under = new osg::StateSet(*lights);
+        _under->merge(*shadows);
+    }
+    return _under.get();
 }
 
 void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
@@ -463,6 +565,10 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     osg::State& state = *renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
+    if (variant.getKey().kit & Shadowed)
+        _shadows->apply(program, *gl);
+    if (!(variant.getKey().kit & ((1u << TypesShift) - 1u)))
+        return; // no light
     const List& list = _lists[number];
     if (isUniform(list))
     {

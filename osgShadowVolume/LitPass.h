@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgShadowVolume/LightGrid.h>
+#include <osgShadowVolume/LightShadows.h>
 #include <osgShadowVolume/LightTextures.h>
 
 #include <osgMultiRender/SurfaceFrame.h>
@@ -21,12 +22,21 @@ class LitPass : public osgMultiRender::SurfacePass
 {
 public:
     explicit LitPass(const LitScene& scene);
+    /// `shadows` may be null.
+    LitPass(const LitScene& scene, const ShadowSettings& settings,
+            std::unique_ptr<LightShadows> shadows);
+
+    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
+    bool isDynamic() const override;
 
     osgMultiRender::LightingMode getLighting() const override;
     void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
+    bool classifiesUnlit() const override;
     void end(osg::RenderInfo& renderInfo) override;
+    void drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame) override;
+    void drawn(osg::RenderInfo& renderInfo) override;
     osgMultiRender::SurfaceSnippet
     makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
     const osg::StateSet* startRun() override;
@@ -73,11 +83,19 @@ private:
     void makeGrid(LightSet& set);
     std::uint32_t listOf(std::vector<std::uint32_t> lights);
     bool isUniform(const List& list) const;
+    bool hasShadow(const List& list) const;
+    void classifyLights(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                        osgMultiRender::SurfaceKey& key, std::uint32_t& number);
+    void addShadowBits(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                       osgMultiRender::SurfaceKey& key, std::uint32_t number) const;
+    float shadowIndexOf(std::size_t light) const;
 
     const LitScene& _scene;
     const LitScene::Lighting _lighting;     ///< Of the cull; the update may change the scene's.
     const LitScene::LightScope _lightScope; ///< Likewise.
     const double _tolerance;
+    const ShadowSettings _settings;
+    std::unique_ptr<LightShadows> _shadows; ///< Null where nothing casts.
     std::vector<EyeLight> _lights;
     std::vector<bool> _used;
     std::vector<Dropped> _dropped;
@@ -93,9 +111,11 @@ private:
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
     std::vector<List> _lists;
     std::vector<const EyeLight*> _gpuLights; ///< What the textures hold.
+    std::vector<float> _gpuShadows;          ///< Parallel: indices of shadows.
     std::vector<std::int32_t> _gpuLists;     ///< Likewise.
     /// The list that each program's uniforms hold during a run.
     std::map<const osgMultiRender::SurfaceVariant*, std::uint32_t> _applied;
+    osg::ref_ptr<osg::StateSet> _under; ///< Textures of lights and shadows, where there are both.
     osg::ref_ptr<LitScene::LightTextures::Context> _textures; ///< Null while no leaf needs a light.
 };
 

@@ -41,8 +41,12 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
         if (_used[i])
         {
             ++drawn;
-            add(_lights[i], PlanEntry::Decision::Folded,
-                "in the one pass of all unshadowed lights");
+            if (shadowIndexOf(i) >= 0.0f)
+                add(_lights[i], PlanEntry::Decision::Drawn, _shadows->describe(i));
+            else
+                add(_lights[i], PlanEntry::Decision::Folded,
+                    "lit without shadow: " +
+                        (_shadows ? _shadows->getDecision(i).reason : "shadows are off"));
         }
         else
         {
@@ -58,6 +62,8 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
     plan.counts["lights.dropped"] = static_cast<double>(dropped);
     plan.counts["lights.grids"] = static_cast<double>(std::count_if(
         _sets.begin(), _sets.end(), [](const auto& s) { return s.second.grid.has_value(); }));
+    if (_shadows)
+        _shadows->fillPlan(plan);
     plan.counts["textureBytes"] =
         _textures ? double(_textures->lights->getImage()->getTotalSizeInBytes() +
                            _textures->lists->getImage()->getTotalSizeInBytes())

@@ -7,6 +7,8 @@
 namespace osgShadowVolume
 {
 
+struct ShadowResources;
+
 /// A LitScene whose lights cast hard shadows, right to the pixel, on everything in the group.
 ///
 /// All triangles of the group cast, whatever the state of the mesh: open, non-manifold, wound in
@@ -75,6 +77,8 @@ public:
     void setIlluminanceMaximum(double lux) { _settings.illuminanceMaximum = lux; }
     double getIlluminanceMaximum() const { return _settings.illuminanceMaximum; }
 
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
 protected:
     ~ShadowedScene() override;
 
@@ -82,6 +86,7 @@ protected:
 
 private:
     ShadowSettings _settings;
+    std::unique_ptr<ShadowResources> _resources;
 };
 
 } // namespace osgShadowVolume

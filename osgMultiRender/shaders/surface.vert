@@ -7,6 +7,9 @@ OSGMR_FLAT out vec4 osgmr_color;
 out vec3 osgmr_position;
 #endif
 
+// Passes that draw the same surface by other programs cover the same pixels at the same depths.
+invariant gl_Position;
+
 vec4 osgmr_eye;     // position in eye coordinates
 vec3 osgmr_vNormal; // normal in eye coordinates, scaled as the state says
 

@@ -5,13 +5,15 @@
 //     2 spot, 3 directional with a cone)
 //   1 ambient, constant attenuation      2 diffuse, linear attenuation
 //   3 specular, quadratic attenuation    4 unit spot direction, cosine of the cutoff
-//   5 spot exponent
+//   5 spot exponent; index among the lights that cast visible shadows, or -1
 // Few lights are uniforms, unrolled by generated code with their types (OSGSV_UNIFORM holds their
 // number). Many lie in osgsv_lights, six texels a light, 256 lights a row; osgsv_lists then holds
 // light indices, and offset and count of each cell of the grid, 1024 a row.
 
 #ifdef OSGSV_UNIFORM
+#if OSGSV_UNIFORM > 0
 uniform vec4 osgsv_light[OSGSV_UNIFORM * 6];
+#endif
 #define OSGSV_LIGHT(light, texel) osgsv_light[(light) * 6 + texel]
 #else
 uniform sampler2D osgsv_lights;
@@ -26,6 +28,11 @@ int osgsv_list(int i)
 }
 #endif
 
+#ifdef OSGSV_MASK
+float osgsv_lightLeft = 1.0; // the least that a light has left
+#endif
+
+#if !defined(OSGSV_UNIFORM) || OSGSV_UNIFORM > 0
 // `type` is that of texel 0; a constant where the light is unrolled.
 void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
                     inout vec3 specular)
@@ -54,6 +61,16 @@ void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient
     }
     ambient += attenuation * lightAmbient.rgb;
     float nl = dot(surface.normal, toLight);
+#ifdef OSGSV_SHADOWS
+    float shadow = OSGSV_LIGHT(light, 5).y;
+#ifdef OSGSV_MASK
+    if (shadow >= 0.0)
+        osgsv_lightLeft = min(osgsv_lightLeft, osgsv_visible(shadow, surface.position));
+#else
+    if (shadow >= 0.0 && nl > 0.0)
+        attenuation *= osgsv_visible(shadow, surface.position);
+#endif
+#endif
     if (nl > 0.0)
     {
         diffuse += attenuation * nl * lightDiffuse.rgb;
@@ -64,6 +81,7 @@ void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient
 #endif
     }
 }
+#endif
 
 #ifndef OSGSV_UNIFORM
 

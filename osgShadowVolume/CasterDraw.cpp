@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/CasterDraw.h>
+
+#include <osg/GLExtensions>
+#include <osg/Program>
+
+#include <cmath>
+
+namespace osgShadowVolume
+{
+
+using Pass = VolumePrograms::Pass;
+
+namespace
+{
+
+double determinantOf(const osg::Matrixd& m)
+{
+    return m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) -
+           m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0)) +
+           m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+}
+
+void setUniform(const osg::State& state, const char* name, float value)
+{
+    const auto& program = *state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniform1f(
+        program.getUniformLocation(osg::Uniform::getNameID(name)), value);
+}
+
+} // namespace
+
+void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
+                     const osg::ref_ptr<osg::RefMatrix>& modelview)
+{
+    osg::Matrixd toLocal;
+    const double determinant = determinantOf(*modelview);
+    // What a matrix flattens has no inside that a volume could be made of.
+    if (!std::isfinite(determinant) || determinant == 0.0 || !toLocal.invert(*modelview))
+        return;
+    const osg::Vec4d local = osg::Vec4d(_light.position.x, _light.position.y, _light.position.z,
+                                        _light.isDirectional() ? 0.0 : 1.0) *
+                             toLocal;
+    _placed.push_back({mesh, modelview,
+                       toMeshLight(mesh->getEdges(), {local.x(), local.y(), local.z(), local.w()}),
+                       determinant < 0.0 ? -1.0f : 1.0f});
+}
+
+void CasterDraw::run(bool zFail)
+{
+    if (_placed.empty())
+        return;
+    const bool onCpu = _view.technique == Technique::CPU;
+    drawPass(onCpu                                  ? Pass::TriangleSides
+             : _view.technique == Technique::TESS ? Pass::TessSides
+                                                    : Pass::GeometrySides,
+             zFail);
+    if (zFail)
+        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, zFail);
+    _placed.clear();
+}
+
+void CasterDraw::drawPass(Pass pass, bool zFail)
+{
+    osg::State& state = *_view.renderInfo.getState();
+    state.pushStateSet(&_view.resources.programs.get(pass, _view.tier, zFail));
+    state.apply();
+    state.applyProjectionMatrix(_view.projection.get());
+    if (state.getLastAppliedProgramObject())
+        for (const Placed& placed : _placed)
+        {
+            place(placed);
+            drawParts(pass, placed);
+        }
+    state.popStateSet();
+}
+
+void CasterDraw::place(const Placed& placed)
+{
+    static const unsigned int light = osg::Uniform::getNameID("osgsv_localLight");
+    osg::State& state = *_view.renderInfo.getState();
+    const auto& program = *state.getLastAppliedProgramObject();
+    state.get<osg::GLExtensions>()->glUniform4fv(program.getUniformLocation(light), 1,
+                                                 &placed.light[0]);
+    setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
+    setUniform(state, "osgsv_handedness", placed.handedness);
+    state.applyModelViewMatrix(placed.modelview.get());
+    if (state.getUseModelViewAndProjectionUniforms())
+        state.applyModelViewAndProjectionUniformsIfRequired();
+}
+
+void CasterDraw::drawParts(Pass pass, const Placed& placed)
+{
+    osg::State& state = *_view.renderInfo.getState();
+    switch (pass)
+    {
+    case Pass::TessSides:
+        for (const auto& patches : placed.mesh->getPatches())
+            drawGeometry(*patches);
+        return;
+    case Pass::GeometrySides:
+        drawGeometry(*placed.mesh->getLines());
+        return;
+    case Pass::GeometryCaps:
+        drawGeometry(*placed.mesh->getTriangles());
+        return;
+    default:
+        break;
+    }
+    const auto volume =
+        _view.resources.silhouettes.get(placed.mesh, placed.light, _view.frameNumber);
+    for (const auto& [weight, geometry] :
+         pass == Pass::TriangleSides ? volume->sides : volume->caps)
+    {
+        setUniform(state, "osgsv_weight", weight);
+        drawGeometry(*geometry);
+    }
+}
+
+void CasterDraw::drawGeometry(const osg::Geometry& geometry)
+{
+    geometry.draw(_view.renderInfo);
+    ++_drawCalls;
+}
+
+} // namespace osgShadowVolume

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgShadowVolume/CasterMesh.h>
+#include <osgShadowVolume/LightReach.h>
+#include <osgShadowVolume/ShadowResources.h>
+#include <osgShadowVolume/ShadowSettings.h>
+
+#include <osg/RenderInfo>
+
+#include <vector>
+
+namespace osgShadowVolume
+{
+
+/// Draws the volumes that one light makes of casters, into the counter that is bound.
+class CasterDraw
+{
+public:
+    /// What the draws of a view have in common.
+    struct View
+    {
+        osg::RenderInfo& renderInfo;
+        ShadowResources& resources;
+        Technique technique; ///< Not AUTO.
+        VolumePrograms::Tier tier;
+        osg::ref_ptr<osg::RefMatrix> projection;
+        unsigned int frameNumber;
+    };
+
+    CasterDraw(const View& view, const EyeLight& light) : _view(view), _light(light) {}
+
+    /// A caster for the next run().
+    void add(const osg::ref_ptr<CasterMesh>& mesh, const osg::ref_ptr<osg::RefMatrix>& modelview);
+    /// Draws what was added since the last one, with caps for z-fail.
+    void run(bool zFail);
+    unsigned int getDrawCalls() const { return _drawCalls; }
+
+private:
+    struct Placed
+    {
+        osg::ref_ptr<CasterMesh> mesh;
+        osg::ref_ptr<osg::RefMatrix> modelview;
+        glm::vec4 light;  ///< In the caster's own coordinates.
+        float handedness; ///< Sign of the modelview's determinant.
+    };
+
+    void drawPass(VolumePrograms::Pass pass, bool zFail);
+    void place(const Placed& placed);
+    void drawParts(VolumePrograms::Pass pass, const Placed& placed);
+    void drawGeometry(const osg::Geometry& geometry);
+
+    const View& _view;
+    const EyeLight& _light;
+    std::vector<Placed> _placed;
+    unsigned int _drawCalls = 0;
+};
+
+} // namespace osgShadowVolume

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/SilhouetteCache.h>
+
+#include <osg/Geometry>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+osg::ref_ptr<osg::Geometry> makeGeometry(osg::Vec4Array* vertices,
+                                         const std::vector<std::uint32_t>& indices)
+{
+    osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+    geometry->setUseDisplayList(false);
+    geometry->setUseVertexBufferObjects(true);
+    geometry->setVertexArray(vertices);
+    geometry->addPrimitiveSet(new osg::DrawElementsUInt(
+        GL_TRIANGLES, static_cast<unsigned int>(indices.size()), indices.data()));
+    return geometry;
+}
+
+osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const glm::vec4& light)
+{
+    const Silhouette silhouette = silhouetteOf(mesh.getEdges(), light, 0);
+    osg::Vec4Array* vertices = mesh.getExtrudable();
+    osg::ref_ptr<SilhouetteCache::Volume> volume = new SilhouetteCache::Volume;
+    for (const Silhouette::Sides& sides : silhouette.sides)
+        if (!sides.indices.empty())
+            volume->sides.emplace_back(float(sides.weight), makeGeometry(vertices, sides.indices));
+    for (const auto* caps : {&silhouette.near, &silhouette.far})
+        if (!caps->empty())
+            volume->caps.emplace_back(1.0f, makeGeometry(vertices, *caps));
+    return volume;
+}
+
+} // namespace
+
+osg::ref_ptr<SilhouetteCache::Volume>
+SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh, const glm::vec4& light,
+                     unsigned int frameNumber)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (frameNumber != _frameNumber)
+        evict(frameNumber);
+    Entry& entry = _entries[Key(mesh.get(), light.x, light.y, light.z, light.w)];
+    if (!entry.volume)
+    {
+        entry.mesh = mesh;
+        entry.volume = makeVolume(*mesh, light);
+    }
+    entry.frameNumber = frameNumber;
+    return entry.volume;
+}
+
+void SilhouetteCache::evict(unsigned int frameNumber)
+{
+    _frameNumber = frameNumber;
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        if (entry->second.frameNumber + FramesUnused < frameNumber)
+            entry = _entries.erase(entry);
+        else
+            ++entry;
+}
+
+void SilhouetteCache::releaseGLObjects(osg::State* state)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& [key, entry] : _entries)
+        for (const auto* parts : {&entry.volume->sides, &entry.volume->caps})
+            for (const auto& [weight, geometry] : *parts)
+                geometry->releaseGLObjects(state);
+}
+
+} // namespace osgShadowVolume

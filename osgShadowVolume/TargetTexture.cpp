@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/TargetTexture.h>
+
+#include <osg/FrameBufferObject>
+#include <osg/GLExtensions>
+#include <osg/State>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+constexpr GLenum texture2D = GL_TEXTURE_2D, texture2DArray = 0x8C1A,
+                 texture2DMultisample = 0x9100, texture2DMultisampleArray = 0x9102;
+
+} // namespace
+
+TargetTexture::TargetTexture(GLenum internalFormat, int width, int height, int layers, int samples)
+    : _width(width), _height(height), _layers(layers), _samples(samples)
+{
+    setInternalFormat(static_cast<GLint>(internalFormat));
+    setFilter(MIN_FILTER, NEAREST);
+    setFilter(MAG_FILTER, NEAREST);
+    setWrap(WRAP_S, CLAMP_TO_EDGE);
+    setWrap(WRAP_T, CLAMP_TO_EDGE);
+    setUseHardwareMipMapGeneration(false);
+}
+
+TargetTexture::TargetTexture(const TargetTexture& other, const osg::CopyOp& copyop)
+    : osg::Texture(other, copyop), _width(other._width), _height(other._height),
+      _layers(other._layers), _samples(other._samples)
+{
+}
+
+int TargetTexture::compare(const osg::StateAttribute& other) const
+{
+    return this < &other ? -1 : this == &other ? 0 : 1; // each is a target of its own
+}
+
+GLenum TargetTexture::getTextureTarget() const
+{
+    if (_samples > 1)
+        return _layers ? texture2DMultisampleArray : texture2DMultisample;
+    return _layers ? texture2DArray : texture2D;
+}
+
+void TargetTexture::apply(osg::State& state) const
+{
+    const unsigned int contextID = state.getContextID();
+    if (TextureObject* object = getTextureObject(contextID))
+    {
+        object->bind();
+        return;
+    }
+    const auto* gl = state.get<osg::GLExtensions>();
+    const GLenum target = getTextureTarget();
+    const int depth = std::max(1, _layers);
+    // The number of samples stands in for that of mip levels: OSG's pool of orphaned textures does
+    // not tell samples apart otherwise.
+    generateAndAssignTextureObject(contextID, target, _samples, _internalFormat, _width, _height,
+                                   depth, 0)
+        ->bind();
+    if (_samples > 1 && _layers)
+        gl->glTexImage3DMultisample(target, _samples, _internalFormat, _width, _height, depth,
+                                    GL_TRUE);
+    else if (_samples > 1)
+        gl->glTexImage2DMultisample(target, _samples, _internalFormat, _width, _height, GL_TRUE);
+    else
+    {
+        // Formats of transfers must fit the kind of the internal format, though nothing is sent.
+        const bool isDepth = _internalFormat == GL_DEPTH_COMPONENT32F;
+        const bool isInteger = _internalFormat == GL_R32UI;
+        const GLenum format = isDepth ? GL_DEPTH_COMPONENT : isInteger ? GL_RED_INTEGER_EXT : GL_RED;
+        const GLenum type = isInteger ? GL_UNSIGNED_INT : GL_FLOAT;
+        applyTexParameters(target, state);
+        if (_layers)
+            gl->glTexImage3D(target, 0, _internalFormat, _width, _height, depth, 0, format, type,
+                             nullptr);
+        else
+            glTexImage2D(target, 0, _internalFormat, _width, _height, 0, format, type, nullptr);
+    }
+    getTextureObject(contextID)->setAllocated(true);
+}
+
+void TargetTexture::attach(osg::State& state, GLenum attachment, int layer) const
+{
+    const auto* gl = state.get<osg::GLExtensions>();
+    if (!getTextureObject(state.getContextID()))
+    {
+        state.setActiveTextureUnit(0);
+        apply(state);
+        state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    }
+    const GLuint id = getTextureObject(state.getContextID())->id();
+    if (_layers)
+        gl->glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER_EXT, attachment, id, 0, layer);
+    else
+        gl->glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER_EXT, attachment, getTextureTarget(), id, 0);
+}
+
+std::size_t TargetTexture::getBytes() const
+{
+    return std::size_t(_width) * _height * std::max(1, _layers) * _samples * 4;
+}
+
+} // namespace osgShadowVolume

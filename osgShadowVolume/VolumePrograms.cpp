@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/VolumePrograms.h>
+
+#include <osgShadowVolume/ShadowTargets.h>
+#include <osgShadowVolume/Shaders.h>
+
+#include <osg/BlendEquation>
+#include <osg/BlendFunc>
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/LogicOp>
+#include <osg/PolygonOffset>
+#include <osg/Program>
+#include <osg/Uniform>
+#include <osgDB/ReadFile>
+
+#ifndef GL_DEPTH_CLAMP
+#define GL_DEPTH_CLAMP 0x864F
+#endif
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+using Pass = VolumePrograms::Pass;
+
+constexpr auto On = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+constexpr auto Off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
+bool isVolume(Pass pass)
+{
+    return pass >= Pass::TessSides;
+}
+
+bool isCaps(Pass pass)
+{
+    return pass == Pass::GeometryCaps || pass == Pass::TriangleCaps;
+}
+
+/// State in which leaves are drawn once more, over their own.
+void setDepthState(osg::StateSet& state)
+{
+    state.setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), On);
+    state.setAttribute(new osg::ColorMask, On);
+    for (GLenum mode : {GL_BLEND, GL_COLOR_LOGIC_OP, GL_STENCIL_TEST})
+        state.setMode(mode, Off);
+}
+
+void setScreenState(osg::StateSet& state, bool combine)
+{
+    for (GLenum mode : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_STENCIL_TEST, GL_ALPHA_TEST})
+        state.setMode(mode, Off);
+    state.setAttribute(new osg::ColorMask, On);
+    state.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::OR), combine ? On : Off);
+    state.addUniform(new osg::Uniform("osgsv_counter", ShadowTargets::DepthUnit));
+}
+
+void setVolumeState(osg::StateSet& state, bool zFail, bool caps)
+{
+    // What fails LESS passes GEQUAL: a blended count has no operation for failing fragments.
+    state.setAttributeAndModes(
+        new osg::Depth(zFail ? osg::Depth::GEQUAL : osg::Depth::LESS, 0.0, 1.0, false), On);
+    // Nothing of a volume may be lost before the near or behind the far plane. Under z-pass no
+    // volume comes near the near plane, and what lies before it must not count.
+    state.setMode(GL_DEPTH_CLAMP, zFail ? On : Off);
+    state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE), On);
+    state.setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
+    state.setAttribute(new osg::ColorMask, On);
+    for (GLenum mode : {GL_CULL_FACE, GL_STENCIL_TEST, GL_ALPHA_TEST, GL_COLOR_LOGIC_OP})
+        state.setMode(mode, Off);
+    // A near cap lies in the surface that casts. It has to count as behind it, so that a surface
+    // is in its own shadow exactly where light comes from behind; nothing is visible between.
+    if (caps)
+        state.setAttributeAndModes(new osg::PolygonOffset(1.0f, 4.0f), On);
+}
+
+struct Stage
+{
+    osg::Shader::Type type;
+    const char* file;
+    const char* text;
+};
+
+std::vector<Stage> stagesOf(Pass pass)
+{
+    using osg::Shader;
+    const Stage depth{Shader::VERTEX, "depth.vert", shaders::depth_vert};
+    const Stage peel{Shader::FRAGMENT, "peel.frag", shaders::peel_frag};
+    const Stage screen{Shader::VERTEX, "resolve.vert", shaders::resolve_vert};
+    const Stage resolve{Shader::FRAGMENT, "resolve.frag", shaders::resolve_frag};
+    const Stage volume{Shader::VERTEX, "volume.vert", shaders::volume_vert};
+    const Stage count{Shader::FRAGMENT, "volume.frag", shaders::volume_frag};
+    switch (pass)
+    {
+    case Pass::Depth:
+    case Pass::Peel:
+        return {depth, peel};
+    case Pass::Masked:
+        return {};
+    case Pass::Clear:
+    case Pass::Resolve:
+        return {screen, resolve};
+    case Pass::TessSides:
+        return {volume, {Shader::TESSCONTROL, "volume.tesc", shaders::volume_tesc},
+                {Shader::TESSEVALUATION, "volume.tese", shaders::volume_tese}, count};
+    case Pass::GeometrySides:
+    case Pass::GeometryCaps:
+        return {volume, {Shader::GEOMETRY, "volume.geom", shaders::volume_geom}, count};
+    case Pass::TriangleSides:
+    case Pass::TriangleCaps:
+        return {volume, count};
+    }
+    return {};
+}
+
+std::string headOf(Pass pass, const VolumePrograms::Tier& tier)
+{
+    std::string head = "#version " + std::to_string(tier.language) + " compatibility\n";
+    if (tier.language < 400)
+        head += "#extension GL_ARB_gpu_shader5 : enable\n"
+                "#extension GL_ARB_sample_shading : enable\n";
+    head += "#define OSGSV_SAMPLES " + std::to_string(tier.samples) + "\n";
+    if (pass == Pass::Peel)
+        head += "#define OSGSV_PEEL\n";
+    if (isCaps(pass))
+        head += "#define OSGSV_CAPS\n";
+    if (pass == Pass::TriangleSides || pass == Pass::TriangleCaps)
+        head += "#define OSGSV_TRIANGLES\n";
+    return head;
+}
+
+} // namespace
+
+const osg::StateSet& VolumePrograms::get(Pass pass, const Tier& tier, bool zFail)
+{
+    const Key key{pass, tier, zFail};
+    std::lock_guard<std::mutex> lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& state = _states[key];
+    if (!state)
+        state = make(key);
+    return *state;
+}
+
+osg::ref_ptr<osg::StateSet> VolumePrograms::make(const Key& key)
+{
+    osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
+    state->setThreadSafeRefUnref(true);
+    if (osg::ref_ptr<osg::Program> program = makeProgram(key))
+        state->setAttribute(program, On);
+    if (isVolume(key.pass))
+        setVolumeState(*state, key.zFail, isCaps(key.pass));
+    else if (key.pass == Pass::Clear || key.pass == Pass::Resolve)
+        setScreenState(*state, key.pass == Pass::Resolve);
+    else
+        setDepthState(*state);
+    if (key.pass == Pass::Peel)
+    {
+        state->addUniform(new osg::Uniform("osgsv_depth", ShadowTargets::DepthUnit));
+        state->addUniform(new osg::Uniform("osgsv_opaqueDepth", ShadowTargets::OpaqueDepthUnit));
+    }
+    return state;
+}
+
+osg::ref_ptr<osg::Program> VolumePrograms::makeProgram(const Key& key)
+{
+    const std::vector<Stage> stages = stagesOf(key.pass);
+    if (stages.empty())
+        return nullptr;
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->setThreadSafeRefUnref(true);
+    const std::string head = headOf(key.pass, key.tier);
+    for (const Stage& stage : stages)
+    {
+        osg::ref_ptr<osg::Shader> text = osgDB::readRefShaderFileWithFallback(
+            stage.type, std::string("osgShadowVolume/") + stage.file, stage.text);
+        osg::ref_ptr<osg::Shader> shader = new osg::Shader(stage.type, head + text->getShaderSource());
+        shader->setName(std::string("osgShadowVolume/") + stage.file);
+        program->addShader(shader);
+    }
+    program->setName(std::string("osgShadowVolume ") + stages.back().file);
+    if (key.pass == Pass::GeometrySides || key.pass == Pass::GeometryCaps)
+    {
+        const bool caps = key.pass == Pass::GeometryCaps;
+        program->setParameter(GL_GEOMETRY_VERTICES_OUT_EXT, caps ? 6 : 4);
+        program->setParameter(GL_GEOMETRY_INPUT_TYPE_EXT,
+                              caps ? GL_TRIANGLES : GL_LINES_ADJACENCY_EXT);
+        program->setParameter(GL_GEOMETRY_OUTPUT_TYPE_EXT, GL_TRIANGLE_STRIP);
+    }
+    return program;
+}
+
+void VolumePrograms::releaseGLObjects(osg::State* state) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& [key, stateSet] : _states)
+        stateSet->releaseGLObjects(state);
+}
+
+} // namespace osgShadowVolume

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/State>
+#include <osg/StateSet>
+
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace osgShadowVolume
+{
+
+/// The states in which shadow volumes, depths and masks are drawn. Thread safe.
+class VolumePrograms
+{
+public:
+    enum class Pass
+    {
+        Depth,   ///< Opaque receivers.
+        Masked,  ///< Opaque receivers with alpha test: their own program draws.
+        Peel,    ///< Transparent receivers.
+        Clear,   ///< Full screen: no light is taken away.
+        Resolve, ///< Full screen: counts become a bit.
+        TessSides,
+        GeometrySides,
+        GeometryCaps,
+        TriangleSides, ///< Found on the CPU, as the caps below.
+        TriangleCaps
+    };
+
+    /// What a context can do, and what a view needs.
+    struct Tier
+    {
+        int language = 330; ///< GLSL version, times 100.
+        int samples = 1;
+        bool operator<(const Tier& other) const
+        {
+            return language != other.language ? language < other.language : samples < other.samples;
+        }
+    };
+
+    /// The state of a pass; `zFail` counts for the volumes alone. Lives as long as this.
+    const osg::StateSet& get(Pass pass, const Tier& tier, bool zFail = false);
+
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    struct Key
+    {
+        Pass pass;
+        Tier tier;
+        bool zFail;
+        bool operator<(const Key& other) const
+        {
+            if (pass != other.pass)
+                return pass < other.pass;
+            return zFail != other.zFail ? zFail < other.zFail : tier < other.tier;
+        }
+    };
+    osg::ref_ptr<osg::StateSet> make(const Key& key);
+    osg::ref_ptr<osg::Program> makeProgram(const Key& key);
+
+    mutable std::mutex _mutex;
+    std::map<Key, osg::ref_ptr<osg::StateSet>> _states;
+};
+
+} // namespace osgShadowVolume

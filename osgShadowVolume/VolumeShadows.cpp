@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/VolumeShadows.h>
+
+#include <osgShadowVolume/CasterDraw.h>
+#include <osgShadowVolume/Shaders.h>
+
+#include <osg/GLExtensions>
+#include <osg/Viewport>
+#include <osgDB/ReadFile>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgShadowVolume
+{
+
+using osgMultiRender::SurfaceItem;
+using Pass = VolumePrograms::Pass;
+
+namespace
+{
+
+/// The draw state that a visit to other framebuffers changes.
+class FramebufferVisit
+{
+public:
+    explicit FramebufferVisit(const osg::GLExtensions& gl) : _gl(gl)
+    {
+        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
+        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
+        glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
+        glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
+        _scissor = glIsEnabled(GL_SCISSOR_TEST);
+        glDisable(GL_SCISSOR_TEST);
+        glClearDepth(1.0);
+    }
+    ~FramebufferVisit()
+    {
+        _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
+        _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
+        glClearColor(_color[0], _color[1], _color[2], _color[3]);
+        glClearDepth(_depth);
+        if (_scissor)
+            glEnable(GL_SCISSOR_TEST);
+    }
+    FramebufferVisit(const FramebufferVisit&) = delete;
+    FramebufferVisit& operator=(const FramebufferVisit&) = delete;
+
+private:
+    const osg::GLExtensions& _gl;
+    GLint _draw = 0, _read = 0;
+    GLfloat _color[4];
+    GLdouble _depth = 1.0;
+    GLboolean _scissor = GL_FALSE;
+};
+
+void drawScreen(osg::State& state)
+{
+    // gl_VertexID alone places the corners.
+    state.disableAllVertexArrays();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+bool isOpaque(const SurfaceItem& item)
+{
+    return item.state->isOpaque();
+}
+
+} // namespace
+
+VolumeShadows::VolumeShadows(const ShadowSettings& settings, ShadowResources& resources)
+    : LightShadows(settings), _resources(resources)
+{
+}
+
+VolumeShadows::~VolumeShadows()
+{
+    if (_targets)
+        _resources.targets.release(_contextID, _targets);
+}
+
+void VolumeShadows::begin(osg::RenderInfo& renderInfo)
+{
+    const auto* gl = renderInfo.getState()->get<osg::GLExtensions>();
+    GLint samples = 0;
+    glGetIntegerv(GL_SAMPLES, &samples);
+    _tier.samples = std::max(1, samples);
+    const float version = std::min(gl->glVersion, gl->glslLanguageVersion);
+    _tier.language = std::clamp(int(std::lround(version * 100.0f)), 330, 450);
+    const bool hasPrecise =
+        _tier.language >= 400 || osg::isGLExtensionSupported(gl->contextID, "GL_ARB_gpu_shader5");
+    _technique = getSettings().technique;
+    if (_technique == Technique::AUTO)
+        _technique = Technique::GEOMETRY;
+    if (_technique == Technique::TESS && _tier.language < 400)
+        _technique = Technique::GEOMETRY;
+    if (_technique == Technique::GEOMETRY && !hasPrecise)
+        _technique = Technique::CPU;
+}
+
+void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
+                         const std::vector<bool>& used, const Items& isReceiver)
+{
+    osg::State& state = *renderInfo.getState();
+    _contextID = state.getContextID();
+    _frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
+    _meshes.assign(getCasters().size(), nullptr);
+    _descriptions.assign(getLights().size(), std::string());
+    int lights = 0;
+    bool any = false;
+    for (std::size_t i = 0; i < getLights().size(); ++i)
+        if (getDecision(i).index >= 0)
+        {
+            lights = std::max(lights, getDecision(i).index + 1);
+            any = any || used[i];
+        }
+    if (!any)
+        return;
+    bool hasTransparent = false;
+    frame.forEachItem([&](const SurfaceItem& item)
+                      { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
+    GLint viewport[4];
+    glGetIntegerv(GL_VIEWPORT, viewport);
+    TargetLayout layout;
+    layout.width = viewport[0] + viewport[2];
+    layout.height = viewport[1] + viewport[3];
+    layout.samples = _tier.samples;
+    layout.words = (lights + 31) / 32;
+    layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
+    _targets = _resources.targets.acquire(_contextID, layout);
+
+    FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    drawDepths(renderInfo, frame, isReceiver);
+    makeMask(renderInfo, used, -1);
+    for (_layers = 0; _layers < layout.layers; ++_layers)
+    {
+        if (!peel(renderInfo, frame, isReceiver, _layers))
+            break;
+        makeMask(renderInfo, used, _layers);
+    }
+    _lookUp = new osg::StateSet;
+    _lookUp->setTextureAttribute(ShadowTargets::MaskUnit, _targets->getMask(),
+                                 osg::StateAttribute::OVERRIDE);
+    if (_targets->getLayers())
+        _lookUp->setTextureAttribute(ShadowTargets::LayersUnit, _targets->getLayers(),
+                                     osg::StateAttribute::OVERRIDE);
+}
+
+void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
+                               const Items& isReceiver)
+{
+    _targets->bindDepth(*renderInfo.getState());
+    glDepthMask(GL_TRUE);
+    renderInfo.getState()->haveAppliedAttribute(osg::StateAttribute::DEPTH);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    const auto hasHoles = [](const SurfaceItem& item)
+    { return item.state->isOn(osgMultiRender::SurfaceState::AlphaTest); };
+    const auto draw = [&](Pass pass, bool holes)
+    {
+        frame.drawSelected(renderInfo, _resources.programs.get(pass, _tier),
+                           [&](const SurfaceItem& item) {
+                               return isReceiver(item) && isOpaque(item) &&
+                                      hasHoles(item) == holes;
+                           });
+    };
+    draw(Pass::Depth, false);
+    draw(Pass::Masked, true);
+}
+
+bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
+                         const Items& isReceiver, int layer)
+{
+    osg::State& state = *renderInfo.getState();
+    const auto* gl = state.get<osg::GLExtensions>();
+    _targets->bindLayer(state, layer);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    state.haveAppliedAttribute(osg::StateAttribute::DEPTH);
+    state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
+    glClearColor(1.0f, 1.0f, 1.0f, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    osg::ref_ptr<osg::StateSet> inputs = new osg::StateSet;
+    inputs->setTextureAttribute(ShadowTargets::OpaqueDepthUnit, _targets->getDepth(-1),
+                                osg::StateAttribute::OVERRIDE);
+    inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getDepth(layer - 1),
+                                osg::StateAttribute::OVERRIDE);
+    inputs->addUniform(new osg::Uniform("osgsv_layer", layer));
+    GLuint query = 0;
+    gl->glGenQueries(1, &query);
+    gl->glBeginQuery(GL_SAMPLES_PASSED_ARB, query);
+    state.pushStateSet(inputs);
+    frame.drawSelected(renderInfo, _resources.programs.get(Pass::Peel, _tier),
+                       [&](const SurfaceItem& item)
+                       { return isReceiver(item) && !isOpaque(item); });
+    state.popStateSet();
+    gl->glEndQuery(GL_SAMPLES_PASSED_ARB);
+    GLuint passed = 0;
+    gl->glGetQueryObjectuiv(query, GL_QUERY_RESULT_ARB, &passed);
+    gl->glDeleteQueries(1, &query);
+    return passed != 0;
+}
+
+void VolumeShadows::resolve(osg::RenderInfo& renderInfo, int bit)
+{
+    osg::State& state = *renderInfo.getState();
+    osg::ref_ptr<osg::StateSet> inputs = new osg::StateSet;
+    inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getCounter());
+    inputs->addUniform(new osg::Uniform("osgsv_bit", bit));
+    state.pushStateSet(&_resources.programs.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
+    state.pushStateSet(inputs);
+    state.apply();
+    drawScreen(state);
+    state.popStateSet();
+    state.popStateSet();
+}
+
+void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool>& used, int layer)
+{
+    osg::State& state = *renderInfo.getState();
+    int word = -1;
+    for (std::size_t light = 0; light < getLights().size(); ++light)
+    {
+        const int index = getDecision(light).index;
+        if (index < 0 || !used[light])
+            continue;
+        if (index / 32 != word)
+        {
+            word = index / 32;
+            _targets->bindMask(state, layer, word);
+            resolve(renderInfo, -1);
+        }
+        _targets->bindCounter(state, layer);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+        state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
+        glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+        glClear(GL_COLOR_BUFFER_BIT);
+        drawVolumes(renderInfo, light);
+        _targets->bindMask(state, layer, word);
+        resolve(renderInfo, index % 32);
+    }
+}
+
+const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
+{
+    osg::ref_ptr<CasterMesh>& mesh = _meshes[caster];
+    if (!mesh)
+        mesh = _resources.casters->get(getCasters()[caster].source, _frameNumber);
+    return mesh;
+}
+
+void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
+{
+    const LightDecision& decision = getDecision(light);
+    const CasterDraw::View view{renderInfo, _resources,       _technique,
+                                _tier,      getProjection(), _frameNumber};
+    CasterDraw draw(view, getLights()[light]);
+    std::size_t zFail = 0;
+    for (bool failing : {false, true})
+    {
+        for (std::size_t i = 0; i < decision.casters.size(); ++i)
+            if (decision.needsZFail[i] == failing)
+            {
+                draw.add(getMesh(decision.casters[i]), getCasters()[decision.casters[i]].modelview);
+                zFail += failing;
+            }
+        draw.run(failing);
+    }
+    _drawCalls += draw.getDrawCalls();
+    const std::size_t casters = decision.casters.size();
+    _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
+                           ", z-fail for " + std::to_string(zFail);
+}
+
+std::string VolumeShadows::makeSource(bool transparent) const
+{
+    std::string source = "#define OSGSV_SAMPLES " + std::to_string(_tier.samples) + "\n";
+    if (_tier.language >= 400)
+        source += "#define OSGSV_SAMPLE_MASK\n";
+    if (transparent)
+        source += "#define OSGSV_TRANSPARENT\n";
+    osg::ref_ptr<osg::Shader> shader = osgDB::readRefShaderFileWithFallback(
+        osg::Shader::FRAGMENT, "osgShadowVolume/visible.frag", shaders::visible_frag);
+    return source + shader->getShaderSource();
+}
+
+std::vector<std::pair<std::string, int>> VolumeShadows::getSamplers() const
+{
+    return {{"osgsv_mask", ShadowTargets::MaskUnit}, {"osgsv_layers", ShadowTargets::LayersUnit}};
+}
+
+void VolumeShadows::apply(const osg::Program::PerContextProgram& program,
+                          const osg::GLExtensions& gl) const
+{
+    static const unsigned int size = osg::Uniform::getNameID("osgsv_maskSize");
+    if (_targets)
+        gl.glUniform2i(program.getUniformLocation(size), _targets->getLayout().words, _layers);
+}
+
+std::uint32_t VolumeShadows::getVariantBits() const
+{
+    // Samples are a power of two up to 64.
+    std::uint32_t bits = 0;
+    for (int samples = _tier.samples; samples > 1; samples /= 2)
+        ++bits;
+    return bits;
+}
+
+void VolumeShadows::drawn(osg::RenderInfo&)
+{
+    if (_targets)
+        _resources.targets.release(_contextID, _targets);
+    _targets = nullptr;
+    _lookUp = nullptr;
+}
+
+std::string VolumeShadows::describe(std::size_t light) const
+{
+    return _descriptions.empty() ? std::string() : _descriptions[light];
+}
+
+void VolumeShadows::fillPlan(osgMultiRender::Plan& plan) const
+{
+    LightShadows::fillPlan(plan);
+    plan.counts["shadows.drawCalls"] = _drawCalls;
+    plan.counts["shadows.transparentLayers"] = _layers;
+    plan.counts["shadows.bytes"] = _targets ? double(_targets->getBytes()) : 0.0;
+}
+
+} // namespace osgShadowVolume
