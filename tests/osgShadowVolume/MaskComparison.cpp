@@ -62,6 +62,9 @@ bool isEdgeNear(const ShadowTruth& truth, const Light& light, const Sample& cent
                 return true;
         }
     }
+    for (const osg::Vec2d& point : truth.findEdgePoints(light, x, y, {pixelX, pixelY}))
+        if (truth.sample(light, point.x(), point.y()).seen != center.seen)
+            return true;
     return false;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "ShadowTruth.h"
 
+#include <osg/BoundingBox>
+
 #include <embree3/rtcore.h>
 
 #include <algorithm>
@@ -49,8 +51,8 @@ double largest(const osg::Vec3d& v)
     return std::max({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
 }
 
-/// Whether the line meets the triangle, or passes it within the rounding of its corners to float.
-/// Between two triangles with a common edge no line gets through.
+/// Whether the line meets the triangle, or passes it within the rounding of double: between two
+/// triangles with a common edge no line gets through, though they have transforms of their own.
 bool meets(const EyeTriangle& t, const osg::Vec3d& origin, const osg::Vec3d& direction)
 {
     const osg::Vec3d d = direction / direction.length();
@@ -60,62 +62,50 @@ bool meets(const EyeTriangle& t, const osg::Vec3d& origin, const osg::Vec3d& dir
         const osg::Vec3d a = t.corner[k] - origin, b = t.corner[(k + 1) % 3] - origin;
         const double size =
             std::max({largest(t.corner[k]), largest(t.corner[(k + 1) % 3]), largest(origin)});
-        // The moment of the edge about the line, less what corners off by 2^-22 change.
+        // The moment of the edge about the line, less what its rounding may be.
         const double moment = d * (a ^ b);
-        const double slack = 2.4e-7 * size * (b - a).length();
+        const double slack = 1e-14 * size * (b - a).length();
         low = std::min(low, moment + slack);
         high = std::max(high, moment - slack);
     }
     return !(low < 0.0 && high > 0.0);
 }
 
-} // namespace
-
-struct ShadowTruth::State
-{
-    Scene scene;
-    osg::Matrixd view, projection, unproject;
-    std::vector<EyeTriangle> triangles;
-    RTCDevice device = nullptr;
-    RTCScene embree = nullptr;
-
-    State(osg::Node& node, const support::CameraSpec& camera);
-    ~State();
-
-    void build();
-    EyeLight toEye(const Light& light) const;
-    EyeRay rayAt(double x, double y) const;
-    bool isCulled(int triangle, const EyeRay& ray) const;
-    Sample hitAt(int triangle, const EyeRay& ray, double along) const;
-    Sample firstHit(const EyeRay& ray) const;
-    Sample firstHitOfAll(const EyeRay& ray) const;
-    bool castsOnItself(int triangle, const Light& light, const EyeRay& ray) const;
-    bool casts(int caster, const Light& light, const EyeLight& eye, const osg::Vec3d& point) const;
-    bool isOccluded(const Light& light, const EyeLight& eye, const osg::Vec3d& point,
-                    int seen) const;
-    bool isOccludedByAny(const Light& light, const EyeLight& eye, const osg::Vec3d& point,
-                         int seen) const;
-    bool areSame(int a, int b) const;
-    template <class Occluded>
-    Seen judge(const Light& light, const EyeRay& ray, Sample& sample, Occluded occluded) const;
-};
-
-namespace
-{
-
-/// What Embree's filters are given.
+/// What Embree is asked with: `visit` is called for each triangle that the ray may meet, until it
+/// returns true.
 struct Query : RTCIntersectContext
 {
-    const ShadowTruth* truth;
-    std::function<bool(int)> accepts;
+    std::function<bool(int)> visit;
 };
 
-void filter(const RTCFilterFunctionNArguments* arguments)
+/// Corners of all triangles, and how far floats may be off among them.
+struct Bounds
+{
+    const std::vector<EyeTriangle>* triangles;
+    double slack;
+};
+
+void boundsOf(const RTCBoundsFunctionArguments* arguments)
+{
+    const Bounds& bounds = *static_cast<const Bounds*>(arguments->geometryUserPtr);
+    const EyeTriangle& triangle = (*bounds.triangles)[arguments->primID];
+    osg::BoundingBoxd box;
+    for (const osg::Vec3d& corner : triangle.corner)
+        box.expandBy(corner);
+    RTCBounds& out = *arguments->bounds_o;
+    out.lower_x = static_cast<float>(box.xMin() - bounds.slack);
+    out.lower_y = static_cast<float>(box.yMin() - bounds.slack);
+    out.lower_z = static_cast<float>(box.zMin() - bounds.slack);
+    out.upper_x = static_cast<float>(box.xMax() + bounds.slack);
+    out.upper_y = static_cast<float>(box.yMax() + bounds.slack);
+    out.upper_z = static_cast<float>(box.zMax() + bounds.slack);
+}
+
+void occluded(const RTCOccludedFunctionNArguments* arguments)
 {
     const Query& query = *static_cast<const Query*>(arguments->context);
-    const unsigned int triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    if (!query.accepts(static_cast<int>(triangle)))
-        arguments->valid[0] = 0;
+    if (arguments->valid[0] && query.visit(static_cast<int>(arguments->primID)))
+        RTCRayN_tfar(arguments->ray, arguments->N, 0) = -std::numeric_limits<float>::infinity();
 }
 
 RTCRay makeRay(const osg::Vec3d& origin, const osg::Vec3d& direction, double length)
@@ -133,6 +123,40 @@ RTCRay makeRay(const osg::Vec3d& origin, const osg::Vec3d& direction, double len
 }
 
 } // namespace
+
+struct ShadowTruth::State
+{
+    Scene scene;
+    osg::Matrixd view, projection, unproject;
+    std::vector<EyeTriangle> triangles;
+    Bounds bounds;
+    RTCDevice device = nullptr;
+    RTCScene embree = nullptr;
+
+    State(osg::Node& node, const support::CameraSpec& camera);
+    ~State();
+
+    void build();
+    EyeLight toEye(const Light& light) const;
+    EyeRay rayAt(double x, double y) const;
+    bool isCulled(int triangle, const EyeRay& ray) const;
+    bool visit(const osg::Vec3d& origin, const osg::Vec3d& direction, double length,
+               const std::function<bool(int)>& visit) const;
+    double along(int triangle, const EyeRay& ray) const;
+    Sample hitAt(int triangle, const EyeRay& ray) const;
+    void meet(int triangle, const EyeRay& ray, int& found, double& nearest) const;
+    Sample firstHit(const EyeRay& ray) const;
+    Sample firstHitOfAll(const EyeRay& ray) const;
+    bool castsOnItself(int triangle, const Light& light, const EyeRay& ray) const;
+    bool casts(int caster, const Light& light, const EyeLight& eye, const osg::Vec3d& point) const;
+    bool isOccluded(const Light& light, const EyeLight& eye, const osg::Vec3d& point,
+                    int seen) const;
+    bool isOccludedByAny(const Light& light, const EyeLight& eye, const osg::Vec3d& point,
+                         int seen) const;
+    bool areSame(int a, int b) const;
+    template <class Occluded>
+    Seen judge(const Light& light, const EyeRay& ray, Sample& sample, Occluded occluded) const;
+};
 
 ShadowTruth::State::State(osg::Node& node, const support::CameraSpec& camera)
     : scene(node, camera.view), view(camera.view), projection(camera.projection),
@@ -158,30 +182,37 @@ ShadowTruth::State::~State()
 
 void ShadowTruth::State::build()
 {
+    double size = 0.0;
+    for (const EyeTriangle& triangle : triangles)
+        for (const osg::Vec3d& corner : triangle.corner)
+            size = std::max(size, largest(corner));
+    // Rays and boxes are floats: off by 2^-24 each, of a size that is no larger than the scene's.
+    bounds = {&triangles, 1e-6 * size};
     device = rtcNewDevice("threads=1");
     embree = rtcNewScene(device);
-    rtcSetSceneFlags(embree, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST |
-                                                        RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-    if (!triangles.empty())
-    {
-        const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        float* vertex = static_cast<float*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                    3 * sizeof(float), 3 * triangles.size()));
-        unsigned int* index = static_cast<unsigned int*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                    3 * sizeof(unsigned int), triangles.size()));
-        for (const EyeTriangle& triangle : triangles)
-            for (const osg::Vec3d& corner : triangle.corner)
-                for (int k = 0; k < 3; ++k)
-                    *vertex++ = static_cast<float>(corner[k]);
-        for (unsigned int i = 0; i < 3 * triangles.size(); ++i)
-            index[i] = i;
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometry(embree, geometry);
-        rtcReleaseGeometry(geometry);
-    }
+    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
+    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned int>(triangles.size()));
+    rtcSetGeometryUserData(geometry, &bounds);
+    rtcSetGeometryBoundsFunction(geometry, boundsOf, nullptr);
+    rtcSetGeometryOccludedFunction(geometry, occluded);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(embree, geometry);
+    rtcReleaseGeometry(geometry);
     rtcCommitScene(embree);
+}
+
+/// Calls visit() for all triangles near the ray, which has `length` times its direction, until one
+/// returns true.
+bool ShadowTruth::State::visit(const osg::Vec3d& origin, const osg::Vec3d& direction, double length,
+                               const std::function<bool(int)>& visit) const
+{
+    Query query;
+    rtcInitIntersectContext(&query);
+    query.visit = visit;
+    RTCRay ray = makeRay(origin, direction, length);
+    rtcOccluded1(embree, &query, &ray);
+    return ray.tfar < 0.0f;
 }
 
 EyeLight ShadowTruth::State::toEye(const Light& light) const
@@ -205,56 +236,45 @@ bool ShadowTruth::State::isCulled(int triangle, const EyeRay& ray) const
     return front == (culled == Culled::FRONT);
 }
 
-/// `along` is where Embree found it: for triangles that are seen edge on.
-Sample ShadowTruth::State::hitAt(int triangle, const EyeRay& ray, double along) const
+/// Where the ray meets the plane of the triangle; NaN or infinity for one that is seen edge on.
+double ShadowTruth::State::along(int triangle, const EyeRay& ray) const
 {
     const EyeTriangle& t = triangles[triangle];
+    return (t.normal * (t.corner[0] - ray.origin)) / (t.normal * ray.direction);
+}
+
+Sample ShadowTruth::State::hitAt(int triangle, const EyeRay& ray) const
+{
     Sample sample;
     sample.triangle = triangle;
-    sample.normal = t.normal / t.normal.length();
-    const double exact = (t.normal * (t.corner[0] - ray.origin)) / (t.normal * ray.direction);
-    if (std::abs(exact - along) <= 1e-4 * std::abs(along) + 1e-6)
-        along = exact;
-    sample.point = ray.origin + ray.direction * along;
+    sample.normal = triangles[triangle].normal;
+    sample.normal.normalize();
+    sample.point = ray.origin + ray.direction * along(triangle, ray);
     return sample;
+}
+
+/// Keeps the nearer one of a triangle and what was found before.
+void ShadowTruth::State::meet(int triangle, const EyeRay& ray, int& found, double& nearest) const
+{
+    const double distance = along(triangle, ray);
+    if (!(distance >= 0.0 && distance <= 1.0 && distance < nearest) || isCulled(triangle, ray) ||
+        !meets(triangles[triangle], ray.origin, ray.direction))
+        return;
+    nearest = distance;
+    found = triangle;
 }
 
 Sample ShadowTruth::State::firstHit(const EyeRay& ray) const
 {
-    Query query;
-    rtcInitIntersectContext(&query);
-    query.accepts = [&](int triangle) { return !isCulled(triangle, ray); };
-    query.filter = filter;
-    RTCRayHit hit{};
-    // A length of 1 is the depth of the view, so that t is of the same size as a depth.
-    hit.ray = makeRay(ray.origin, ray.direction, 1.0);
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree, &query, &hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return {};
-    const double along = hit.ray.tfar;
-    Sample first = hitAt(static_cast<int>(hit.hit.primID), ray, along);
-    // Which of several within the rounding of floats is the first one, double decides.
-    double nearest = (first.point - ray.origin) * ray.direction;
-    query.accepts = [&](int triangle)
-    {
-        if (isCulled(triangle, ray))
-            return false;
-        const Sample other = hitAt(triangle, ray, along);
-        const double distance = (other.point - ray.origin) * ray.direction;
-        if (distance < nearest && distance >= 0.0)
-        {
-            nearest = distance;
-            first = other;
-        }
-        return false;
-    };
-    RTCRayHit all{};
-    all.ray = makeRay(ray.origin, ray.direction, along + 1e-5);
-    all.ray.tnear = static_cast<float>(std::max(along - 1e-5, 0.0));
-    all.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(embree, &query, &all);
-    return first;
+    double nearest = std::numeric_limits<double>::infinity();
+    int found = -1;
+    visit(ray.origin, ray.direction, 1.00001,
+          [&](int triangle)
+          {
+              meet(triangle, ray, found, nearest);
+              return false;
+          });
+    return found < 0 ? Sample() : hitAt(found, ray);
 }
 
 Sample ShadowTruth::State::firstHitOfAll(const EyeRay& ray) const
@@ -262,18 +282,8 @@ Sample ShadowTruth::State::firstHitOfAll(const EyeRay& ray) const
     double nearest = std::numeric_limits<double>::infinity();
     int found = -1;
     for (int i = 0; i < static_cast<int>(triangles.size()); ++i)
-    {
-        const EyeTriangle& t = triangles[i];
-        if (isCulled(i, ray) || !meets(t, ray.origin, ray.direction))
-            continue;
-        const double along = (t.normal * (t.corner[0] - ray.origin)) / (t.normal * ray.direction);
-        if (along >= 0.0 && along <= 1.0 && along < nearest)
-        {
-            nearest = along;
-            found = i;
-        }
-    }
-    return found < 0 ? Sample() : hitAt(found, ray, nearest);
+        meet(i, ray, found, nearest);
+    return found < 0 ? Sample() : hitAt(found, ray);
 }
 
 bool ShadowTruth::State::castsOnItself(int triangle, const Light& light, const EyeRay& ray) const
@@ -313,20 +323,13 @@ bool ShadowTruth::State::casts(int caster, const Light& light, const EyeLight& e
 bool ShadowTruth::State::isOccluded(const Light& light, const EyeLight& eye,
                                     const osg::Vec3d& point, int seen) const
 {
-    Query query;
-    rtcInitIntersectContext(&query);
-    query.accepts = [&](int triangle)
-    { return triangle != seen && casts(triangle, light, eye, point); };
-    query.filter = filter;
     osg::Vec3d direction = eye.from(point);
     const double distance = direction.normalize();
-    // Embree's float ray starts a little before the point: casts() decides what lies between.
-    const double before = 1e-5 * std::max(largest(point), 1e-30);
-    const double length = eye.position.w() == 0.0 ? std::numeric_limits<double>::infinity()
-                                                  : distance * 1.0001 + 2.0 * before;
-    RTCRay ray = makeRay(point - direction * before, direction, length);
-    rtcOccluded1(embree, &query, &ray);
-    return ray.tfar < 0.0f;
+    const double length =
+        eye.position.w() == 0.0 ? std::numeric_limits<double>::infinity() : distance * 1.00001;
+    return visit(point, direction, length,
+                 [&](int triangle)
+                 { return triangle != seen && casts(triangle, light, eye, point); });
 }
 
 bool ShadowTruth::State::isOccludedByAny(const Light& light, const EyeLight& eye,
@@ -393,6 +396,61 @@ Sample ShadowTruth::sampleByAll(const Light& light, double x, double y) const
     return sample;
 }
 
+std::vector<osg::Vec2d> ShadowTruth::findEdgePoints(const Light& light, double x, double y,
+                                                    const osg::Vec2d& pixel) const
+{
+    const State& s = *_state;
+    const Sample first = s.firstHit(s.rayAt(x, y));
+    const EyeLight eye = s.toEye(light);
+    const osg::Vec2d nowhere(std::numeric_limits<double>::infinity(), 0.0);
+    const auto onScreen = [&](const osg::Vec3d& point)
+    {
+        const osg::Vec4d clip = osg::Vec4d(point, 1.0) * s.projection;
+        return clip.w() > 0.0 ? osg::Vec2d(clip.x(), clip.y()) / clip.w() : nowhere;
+    };
+    const auto inShadow = [&](const osg::Vec3d& point)
+    {
+        const osg::Vec3d away = -eye.from(point);
+        const double along = (first.point - point) * first.normal / (away * first.normal);
+        return along >= 0.0 ? onScreen(point + away * along) : nowhere;
+    };
+    std::vector<osg::Vec2d> points;
+    const auto search = [&](const osg::Vec3d& a, const osg::Vec3d& b, const auto& project)
+    {
+        const auto at = [&](double t) { return project(a + (b - a) * t); };
+        const auto distance = [&](double t)
+        {
+            const osg::Vec2d p = at(t);
+            return std::max(std::abs(p.x() - x) / pixel.x(), std::abs(p.y() - y) / pixel.y());
+        };
+        constexpr int Steps = 16;
+        int best = 0;
+        for (int i = 1; i <= Steps; ++i)
+            if (distance(double(i) / Steps) < distance(double(best) / Steps))
+                best = i;
+        double low = std::max(best - 1.0, 0.0) / Steps, high = std::min(best + 1.0, 16.0) / Steps;
+        for (int i = 0; i < 40; ++i)
+        {
+            const double left = low + (high - low) / 3.0, right = high - (high - low) / 3.0;
+            (distance(left) < distance(right) ? high : low) =
+                distance(left) < distance(right) ? right : left;
+        }
+        if (distance(0.5 * (low + high)) <= 1.0)
+            points.push_back(at(0.5 * (low + high)));
+    };
+    for (const EyeTriangle& triangle : s.triangles)
+    {
+        for (int k = 0; k < 3; ++k)
+        {
+            const osg::Vec3d &a = triangle.corner[k], &b = triangle.corner[(k + 1) % 3];
+            search(a, b, onScreen);
+            if (first.triangle >= 0)
+                search(a, b, inShadow);
+        }
+    }
+    return points;
+}
+
 bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, Seen seen) const
 {
     const State& s = *_state;
@@ -405,11 +463,10 @@ bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, S
     // Another surface in the same quantum may be the one that the depth buffer kept.
     for (int i = 0; i < static_cast<int>(s.triangles.size()); ++i)
     {
-        const EyeTriangle& t = s.triangles[i];
-        if (i == first.triangle || s.isCulled(i, ray) || !meets(t, ray.origin, ray.direction))
+        if (i == first.triangle || s.isCulled(i, ray) ||
+            !meets(s.triangles[i], ray.origin, ray.direction))
             continue;
-        Sample other =
-            s.hitAt(i, ray, (t.normal * (t.corner[0] - ray.origin)) / (t.normal * ray.direction));
+        Sample other = s.hitAt(i, ray);
         if (!(std::abs((other.point * s.projection).z() - depth) <= Quantum) ||
             s.areSame(i, first.triangle))
             continue;

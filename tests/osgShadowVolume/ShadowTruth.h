@@ -5,6 +5,8 @@
 
 #include <support/HeadlessViewer.h>
 
+#include <osg/Vec2d>
+
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -30,7 +32,8 @@ struct Sample
     double grazing = 1; ///< |N.L|.
 };
 
-/// Shadows by ray tracing: Embree finds the triangles near a ray, double precision decides.
+/// Shadows by ray tracing: Embree finds the triangles near a ray, with room for the rounding of its
+/// floats; double precision decides.
 ///
 /// The triangle that is seen casts on itself where the light lies on the other side of its plane. A
 /// triangle with the light in its plane casts nothing. All functions may be called from several
@@ -54,6 +57,12 @@ public:
 
     /// As sample(), but by looking at every triangle, without Embree: for tests of that one.
     Sample sampleByAll(const Light& light, double x, double y) const;
+
+    /// Points within a pixel of (x, y) where the edges of triangles, as they are seen or as shadows
+    /// on the plane of what is seen at (x, y), come nearest to it: for what is so thin that a
+    /// look at many points misses it. `pixel` is the size of one.
+    std::vector<osg::Vec2d> findEdgePoints(const Light& light, double x, double y,
+                                           const osg::Vec2d& pixel) const;
 
     /// Whether `seen` is the answer too for a surface that is found one quantum of a 24-bit depth
     /// buffer (2^-24) nearer or farther. What the surface casts on itself is not asked anew.
