@@ -438,15 +438,36 @@ std::vector<osg::Vec2d> ShadowTruth::findEdgePoints(const Light& light, double x
         if (distance(0.5 * (low + high)) <= 1.0)
             points.push_back(at(0.5 * (low + high)));
     };
+    // Most triangles are far away on the screen.
+    const auto isNear = [&](const EyeTriangle& triangle, const auto& project)
+    {
+        constexpr double Infinity = std::numeric_limits<double>::infinity();
+        osg::Vec2d low(Infinity, Infinity), high(-Infinity, -Infinity);
+        for (const osg::Vec3d& corner : triangle.corner)
+        {
+            const osg::Vec2d p = project(corner);
+            if (p == nowhere)
+                return true;
+            for (int k = 0; k < 2; ++k)
+            {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
+        }
+        return low.x() - pixel.x() <= x && high.x() + pixel.x() >= x && low.y() - pixel.y() <= y &&
+               high.y() + pixel.y() >= y;
+    };
+    const auto searchAll = [&](const EyeTriangle& triangle, const auto& project)
+    {
+        if (isNear(triangle, project))
+            for (int k = 0; k < 3; ++k)
+                search(triangle.corner[k], triangle.corner[(k + 1) % 3], project);
+    };
     for (const EyeTriangle& triangle : s.triangles)
     {
-        for (int k = 0; k < 3; ++k)
-        {
-            const osg::Vec3d &a = triangle.corner[k], &b = triangle.corner[(k + 1) % 3];
-            search(a, b, onScreen);
-            if (first.triangle >= 0)
-                search(a, b, inShadow);
-        }
+        searchAll(triangle, onScreen);
+        if (first.triangle >= 0)
+            searchAll(triangle, inShadow);
     }
     return points;
 }
