@@ -5,9 +5,11 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 lit='.(shadows=off,lighting=pixel).shadowvolume'
+shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
+volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
 while (($#)); do
     case $1 in
-        --plain) lit=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -15,6 +17,7 @@ done
 
 start=$SECONDS
 models=/usr/share/inventor/data/models out=build/gallery formats=build/gallery/models
+scenes=build/gallery/scenes
 trap 'status=$?; ((status == 0)) || echo "gallery FAILED after $((SECONDS - start)) s" >&2' EXIT
 # Not the tests, which take most of the building time.
 OSGKITS_TARGETS="osgrender osgdb_egl osgdb_osmesa osgdb_shadowvolume" ./setup.sh
@@ -29,14 +32,20 @@ for name in wheel.osg torus.osgt vehicles/f16.ive; do
         { cat "$out/osgconv.log" >&2; exit 1; }
 done
 
+# Scenes that name the models that they show.
+mkdir -p "$scenes"
+cp examples/scenes/*.iv examples/scenes/*.wrl "$scenes"
+ln -sfn "$models" "$scenes/models"
+
 scripts=()
-for script in chess machines robots scenes vehicles household formats; do
+for script in shadows chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"
 status=0
-build/bin/osgrender --samples 4 --clear-color 0.2,0.22,0.26 -D MODELS=$models -D FORMATS=$formats -D SCENES=examples/scenes \
-    -D LIT="$lit" -D OUT=$out "${scripts[@]}" --html "$out/index.html" >"$out/summary.log" || status=$?
+build/bin/osgrender --samples 4 --clear-color 0.2,0.22,0.26 -D MODELS=$models -D FORMATS=$formats -D SCENES=$scenes \
+    -D LIT="$lit" -D SHADOWED="$shadowed" -D MASK="$mask" -D VOLUMES="$volumes" -D MAPS="$maps" \
+    -D OUT=$out "${scripts[@]}" --html "$out/index.html" >"$out/summary.log" || status=$?
 summary=$(tail -n 1 "$out/summary.log")
 ((status == 0)) || { echo "${summary:-osgrender ended with status $status}" >&2; exit $status; }
 echo "gallery: ${summary#osgrender: }, $((SECONDS - start)) s in all: $out/index.html"

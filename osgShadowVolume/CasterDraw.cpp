@@ -9,7 +9,7 @@
 namespace osgShadowVolume
 {
 
-using Pass = VolumePrograms::Pass;
+using Pass = ShadowPasses::Pass;
 
 namespace
 {
@@ -31,7 +31,7 @@ void setUniform(const osg::State& state, const char* name, float value)
 } // namespace
 
 void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
-                     const osg::ref_ptr<osg::RefMatrix>& modelview)
+                     const osg::ref_ptr<const osg::RefMatrix>& modelview)
 {
     osg::Matrixd toLocal;
     const double determinant = determinantOf(*modelview);
@@ -63,7 +63,7 @@ void CasterDraw::run(bool zFail)
 void CasterDraw::drawPass(Pass pass, bool zFail)
 {
     osg::State& state = *_view.renderInfo.getState();
-    state.pushStateSet(&_view.resources.programs.get(pass, _view.tier, zFail));
+    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, zFail));
     state.apply();
     state.applyProjectionMatrix(_view.projection.get());
     if (state.getLastAppliedProgramObject())

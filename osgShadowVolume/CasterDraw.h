@@ -23,7 +23,7 @@ public:
         osg::RenderInfo& renderInfo;
         ShadowResources& resources;
         Technique technique; ///< Not AUTO.
-        VolumePrograms::Tier tier;
+        ShadowPasses::Tier tier;
         osg::ref_ptr<osg::RefMatrix> projection;
         unsigned int frameNumber;
     };
@@ -31,7 +31,7 @@ public:
     CasterDraw(const View& view, const EyeLight& light) : _view(view), _light(light) {}
 
     /// A caster for the next run().
-    void add(const osg::ref_ptr<CasterMesh>& mesh, const osg::ref_ptr<osg::RefMatrix>& modelview);
+    void add(const osg::ref_ptr<CasterMesh>& mesh, const osg::ref_ptr<const osg::RefMatrix>& modelview);
     /// Draws what was added since the last one, with caps for z-fail.
     void run(bool zFail);
     unsigned int getDrawCalls() const { return _drawCalls; }
@@ -40,14 +40,14 @@ private:
     struct Placed
     {
         osg::ref_ptr<CasterMesh> mesh;
-        osg::ref_ptr<osg::RefMatrix> modelview;
+        osg::ref_ptr<const osg::RefMatrix> modelview;
         glm::vec4 light;  ///< In the caster's own coordinates.
         float handedness; ///< Sign of the modelview's determinant.
     };
 
-    void drawPass(VolumePrograms::Pass pass, bool zFail);
+    void drawPass(ShadowPasses::Pass pass, bool zFail);
     void place(const Placed& placed);
-    void drawParts(VolumePrograms::Pass pass, const Placed& placed);
+    void drawParts(ShadowPasses::Pass pass, const Placed& placed);
     void drawGeometry(const osg::Geometry& geometry);
 
     const View& _view;

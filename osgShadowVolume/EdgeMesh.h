@@ -38,6 +38,7 @@ struct EdgeMesh
     /// A power of two that takes the extent of the vertices to about 1, so that products of
     /// differences neither overflow nor underflow.
     float scale = 1.0f;
+    float reach = 0.0f;         ///< The largest absolute coordinate.
     std::size_t degenerate = 0; ///< Triangles left out because two of their corners are equal.
     std::size_t notFinite = 0;  ///< Left out because a coordinate is infinite or not a number.
 };

@@ -41,6 +41,9 @@ struct EyeLight
     glm::dvec3 spotDirection{0.0, 0.0, -1.0}; ///< Unit vector; spots only.
     float spotCutoffDegrees = 180.0f;
     float spotExponent = 0.0f;
+    /// Lux at one unit of distance on the axis, at any distance for a light at infinity; negative
+    /// where the light does not say. Attenuation plays no part in it.
+    double luxAtUnit = -1.0;
 };
 
 /// 1 / (c + l d + q d²); a denominator of 0 or less gives 1e30, the largest light that stays

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/LightShadows.h>
 
+#include <osgShadowVolume/LightScreen.h>
 #include <osgShadowVolume/ShadowHull.h>
 
 #include <osgUtil/CullVisitor>
+
+#include <algorithm>
 
 namespace osgShadowVolume
 {
@@ -25,20 +28,6 @@ glm::dvec3 toGlm(const osg::Vec3d& v)
     return {v.x(), v.y(), v.z()};
 }
 
-bool isPerspective(const osg::Matrixd& projection)
-{
-    return projection(2, 3) != 0.0;
-}
-
-/// Whether no shadow of the light can be seen because it looks along the same rays as the camera.
-bool sharesTheEye(const EyeLight& light, const osg::Matrixd& projection)
-{
-    if (isPerspective(projection))
-        return !light.isDirectional() && light.position == glm::dvec3(0.0);
-    return light.isDirectional() && light.position.x == 0.0 && light.position.y == 0.0 &&
-           light.position.z > 0.0;
-}
-
 } // namespace
 
 LightShadows::~LightShadows() = default;
@@ -48,13 +37,13 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
     _projection = visitor.getProjectionMatrix();
     CasterCollector collector(visitor, _settings.transparentCasters);
     collector.collect(group);
-    _casters = collector.takeCasters();
-    _notCasting = collector.getNotCasting();
+    _casters = std::move(collector.getCasters());
+    _notCasting = collector.getLeftOut();
     for (const Caster& caster : _casters)
-        _isDynamic = _isDynamic || caster.isDynamic;
+        _isDynamic = _isDynamic || caster.dynamic;
 }
 
-void LightShadows::plan(const osgMultiRender::SurfaceFrame& frame,
+void LightShadows::plan(const glm::dvec4& viewport, const osgMultiRender::SurfaceFrame& frame,
                         const std::vector<EyeLight>& lights)
 {
     _lights = &lights;
@@ -78,8 +67,6 @@ void LightShadows::plan(const osgMultiRender::SurfaceFrame& frame,
             decision.reason = "it says castShadow=0";
         else if (light.isHeadlight && !_settings.headlightShadow)
             decision.reason = "the headlight casts no shadow (headlight=noshadow)";
-        else if (sharesTheEye(light, *_projection))
-            decision.reason = "it sees what the camera sees";
         else
         {
             const glm::dvec4 l(light.position, light.isDirectional() ? 0.0 : 1.0);
@@ -91,8 +78,13 @@ void LightShadows::plan(const osgMultiRender::SurfaceFrame& frame,
                     decision.casters.push_back(i);
                     decision.needsZFail.push_back(toNear.mayTouch(boxes[i]));
                 }
+            const bool castsPastNear = std::find(decision.needsZFail.begin(),
+                                                 decision.needsZFail.end(), true) !=
+                                       decision.needsZFail.end();
             if (decision.casters.empty())
                 decision.reason = "no caster between it and what is in view";
+            else if (!castsPastNear && hidesItsShadows(light, projection, viewport))
+                decision.reason = "its shadows hide behind what casts them";
             else
                 decision.index = index++;
         }

@@ -44,8 +44,8 @@ public:
 
     /// Before anything else: what the context can do.
     virtual void begin(osg::RenderInfo& renderInfo) = 0;
-    /// Decides on each light. The lights stay where they are until the frame is drawn.
-    void plan(const osgMultiRender::SurfaceFrame& frame, const std::vector<EyeLight>& lights);
+    /// Decides on each light; `viewport` in pixels. The lights stay where they are until the frame is drawn.
+    void plan(const glm::dvec4& viewport, const osgMultiRender::SurfaceFrame& frame, const std::vector<EyeLight>& lights);
     /// What was decided on a light; indices are those of plan().
     const LightDecision& getDecision(std::size_t light) const { return _decisions[light]; }
     /// Whether a leaf can be in shadow: those of other projections than the group's (a head-up

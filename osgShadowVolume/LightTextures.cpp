@@ -82,7 +82,7 @@ void packLight(const EyeLight& light, float shadow, float* to)
                                           cosine,
                                           light.spotExponent,
                                           shadow,
-                                          0.0f,
+                                          float(light.luxAtUnit),
                                           0.0f};
     std::memcpy(to, values, sizeof(values));
 }

@@ -2,6 +2,7 @@
 #include <osgShadowVolume/LitPass.h>
 
 #include <osgShadowVolume/EyeLights.h>
+#include <osgShadowVolume/RadicalInverse.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
@@ -35,22 +36,14 @@ enum KitBits : std::uint32_t
     Transparent = 8, ///< Looks visibility up by its depth.
     NumberShift = 4,
     TypesShift = 8,
-    TechniqueShift = 24, ///< LightShadows::getVariantBits(), three bits.
-    ShowShift = 27       ///< Show, three bits.
+    TechniqueShift = 24,   ///< LightShadows::getVariantBits(), three bits.
+    ShowShift = 27,        ///< Show, three bits.
+    FaceNormals = 1u << 30 ///< The model has no normals: those of its triangles.
 };
 
 std::uint32_t numberOfUniformLights(std::uint32_t kit)
 {
     return (kit >> NumberShift) & 15u;
-}
-
-/// Low-discrepancy numbers in [0, 1), so that few samples cover boxes evenly.
-double radicalInverse(unsigned int i, unsigned int base)
-{
-    double result = 0.0, digit = 1.0 / base;
-    for (; i; i /= base, digit /= base)
-        result += digit * (i % base);
-    return result;
 }
 
 /// The most that a matrix stretches a length.
@@ -89,7 +82,9 @@ LitPass::LitPass(const LitScene& scene) : LitPass(scene, ShadowSettings(), nullp
 
 LitPass::LitPass(const LitScene& scene, const ShadowSettings& settings,
                  std::unique_ptr<LightShadows> shadows)
-    : _scene(scene), _lighting(scene.getLighting()), _lightScope(scene.getLightScope()),
+    : _scene(scene),
+      _lighting(measuresLight(settings) ? LitScene::Lighting::PIXEL : scene.getLighting()),
+      _lightScope(measuresLight(settings) ? LitScene::LightScope::ALL : scene.getLightScope()),
       _tolerance(scene.getLightTolerance()), _settings(settings)
 {
     if (_lighting == LitScene::Lighting::PIXEL)
@@ -100,6 +95,8 @@ void LitPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& 
 {
     if (_shadows)
         _shadows->cull(visitor, group);
+    if (measuresLight(_settings))
+        _measures = _illuminance->measure(visitor, group, _settings);
 }
 
 bool LitPass::isDynamic() const
@@ -128,16 +125,19 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     frame.forEachLight(
         [&](const osg::Light& light, const osg::Matrix* matrix)
         {
+            EyeLight eye = toEye(light, matrix);
+            if (measuresLight(_settings) && !measure(eye, light, frame))
+                return;
             if (_lightScope == LitScene::LightScope::MODES)
             {
                 const auto [found, isNew] = lastOf.emplace(light.getLightNum(), all.size());
                 if (!isNew) // GL keeps the last one of a number.
                 {
-                    all[found->second] = toEye(light, matrix);
+                    all[found->second] = eye;
                     return;
                 }
             }
-            all.push_back(toEye(light, matrix));
+            all.push_back(eye);
         });
     if (_lighting != LitScene::Lighting::PIXEL)
     {
@@ -178,7 +178,7 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
             continue;
         }
         const double reach = reachOf(light, threshold);
-        if (brightness(light) == 0.0 && _settings.show != Show::MASK)
+        if (brightness(light) == 0.0 && !classifiesUnlit())
             _dropped.push_back({light, "it is black"});
         else if (everythingBounded && !reaches(light, reach, center, radius))
             _dropped.push_back({light, "it reaches nothing in view"});
@@ -189,7 +189,9 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     if (_shadows)
     {
         _shadows->begin(renderInfo);
-        _shadows->plan(frame, _lights);
+        GLint viewport[4];
+        glGetIntegerv(GL_VIEWPORT, viewport);
+        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, frame, _lights);
     }
     if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)
@@ -337,6 +339,9 @@ void LitPass::addShadowBits(const SurfaceState& state, const osgUtil::RenderLeaf
     {
         key.lighting = LightingMode::Pixel;
         key.kit |= std::uint32_t(_settings.show) << ShowShift;
+        const osg::Geometry* geometry = leaf._drawable->asGeometry();
+        if (measuresLight(_settings) && geometry && !geometry->getNormalArray())
+            key.kit |= FaceNormals;
     }
     const bool lit = (key.kit & ((1u << TypesShift) - 1u)) != 0;
     if (!_shadows || !lit || !hasShadow(_lists[number]) || !_shadows->receives(leaf, state))
@@ -499,6 +504,13 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
         snippet.output = "vec4 osgmr_output(vec4 surface)\n{\n"
                          "    return vec4(vec3(osgsv_lightLeft), 1.0);\n}\n";
     }
+    if (show == Show::LUX || show == Show::ILLUMINANCE)
+    {
+        snippet.fragment = "#define OSGSV_ILLUMINANCE\n";
+        snippet.output = illuminanceSource(show == Show::ILLUMINANCE);
+    }
+    if (key.kit & FaceNormals)
+        snippet.fragment += "#define OSGSV_FACE_NORMALS\n";
     if (key.kit & Shadowed)
     {
         snippet.fragment += "#define OSGSV_SHADOWS\n";
@@ -534,14 +546,29 @@ const osg::StateSet* LitPass::startRun()
     _applied.clear();
     if (_textures && !_textures->isOf(this))
         _textures->set(this, _gpuLights, _gpuShadows, _gpuLists);
-    const osg::StateSet* lights = _textures ? _textures->stateSet.get() : nullptr;
-    const osg::StateSet* shadows = _shadows ? _shadows->getStateSet() : nullptr;
-    if (!lights || !shadows)
-        return lights ? lights : shadows;
+    return mergeUnder({_textures ? _textures->stateSet.get() : nullptr,
+                       _shadows ? _shadows->getStateSet() : nullptr,
+                       measuresLight(_settings) ? IlluminanceView::getStateSet() : nullptr});
+}
+
+const osg::StateSet* LitPass::mergeUnder(std::initializer_list<const osg::StateSet*> stateSets)
+{
+    const osg::StateSet* only = nullptr;
+    int count = 0;
+    for (const osg::StateSet* stateSet : stateSets)
+        if (stateSet)
+        {
+            only = stateSet;
+            ++count;
+        }
+    if (count < 2)
+        return only;
     if (!_under)
     {
-        _under = new osg::StateSet(*lights);
-        _under->merge(*shadows);
+        _under = new osg::StateSet;
+        for (const osg::StateSet* stateSet : stateSets)
+            if (stateSet)
+                _under->merge(*stateSet);
     }
     return _under.get();
 }
@@ -560,6 +587,7 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     static const unsigned int origin = osg::Uniform::getNameID("osgsv_gridOrigin");
     static const unsigned int scale = osg::Uniform::getNameID("osgsv_gridScale");
     static const unsigned int size = osg::Uniform::getNameID("osgsv_gridSize");
+    static const unsigned int maximum = osg::Uniform::getNameID("osgsv_maximum");
     static const unsigned int cells = osg::Uniform::getNameID("osgsv_gridCells");
 
     osg::State& state = *renderInfo.getState();
@@ -567,6 +595,8 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     const auto* gl = state.get<osg::GLExtensions>();
     if (variant.getKey().kit & Shadowed)
         _shadows->apply(program, *gl);
+    if (_settings.show == Show::ILLUMINANCE)
+        gl->glUniform1f(program.getUniformLocation(maximum), float(_measures.maximum));
     if (!(variant.getKey().kit & ((1u << TypesShift) - 1u)))
         return; // no light
     const List& list = _lists[number];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgShadowVolume/IlluminanceView.h>
 #include <osgShadowVolume/LightGrid.h>
 #include <osgShadowVolume/LightShadows.h>
 #include <osgShadowVolume/LightTextures.h>
@@ -25,6 +26,9 @@ public:
     /// `shadows` may be null.
     LitPass(const LitScene& scene, const ShadowSettings& settings,
             std::unique_ptr<LightShadows> shadows);
+
+    /// What to measure with, for Show::LUX and Show::ILLUMINANCE. To be set before cull().
+    void setIlluminance(IlluminanceView* illuminance) { _illuminance = illuminance; }
 
     void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
     bool isDynamic() const override;
@@ -89,13 +93,19 @@ private:
     void addShadowBits(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                        osgMultiRender::SurfaceKey& key, std::uint32_t number) const;
     float shadowIndexOf(std::size_t light) const;
+    /// Fills in what the light gives off; false for one that is not measured.
+    bool measure(EyeLight& eye, const osg::Light& light, const osgMultiRender::SurfaceFrame& frame);
+    double reachOf(const EyeLight& light, double threshold) const;
+    const osg::StateSet* mergeUnder(std::initializer_list<const osg::StateSet*> stateSets);
 
     const LitScene& _scene;
     const LitScene::Lighting _lighting;     ///< Of the cull; the update may change the scene's.
     const LitScene::LightScope _lightScope; ///< Likewise.
     const double _tolerance;
     const ShadowSettings _settings;
-    std::unique_ptr<LightShadows> _shadows; ///< Null where nothing casts.
+    std::unique_ptr<LightShadows> _shadows;  ///< Null where nothing casts.
+    IlluminanceView* _illuminance = nullptr; ///< The scene's.
+    LightMeasures _measures;
     std::vector<EyeLight> _lights;
     std::vector<bool> _used;
     std::vector<Dropped> _dropped;

@@ -45,8 +45,8 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
                 add(_lights[i], PlanEntry::Decision::Drawn, _shadows->describe(i));
             else
                 add(_lights[i], PlanEntry::Decision::Folded,
-                    "lit without shadow: " +
-                        (_shadows ? _shadows->getDecision(i).reason : "shadows are off"));
+                    "in the one pass of all unshadowed lights" +
+                        (_shadows ? ": " + _shadows->getDecision(i).reason : std::string()));
         }
         else
         {
@@ -64,6 +64,8 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
         _sets.begin(), _sets.end(), [](const auto& s) { return s.second.grid.has_value(); }));
     if (_shadows)
         _shadows->fillPlan(plan);
+    if (_settings.show == Show::ILLUMINANCE)
+        plan.counts["illuminance.maximum"] = _measures.maximum;
     plan.counts["textureBytes"] =
         _textures ? double(_textures->lights->getImage()->getTotalSizeInBytes() +
                            _textures->lists->getImage()->getTotalSizeInBytes())

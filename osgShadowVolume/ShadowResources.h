@@ -2,9 +2,12 @@
 #pragma once
 
 #include <osgShadowVolume/CasterCache.h>
+#include <osgShadowVolume/MapPrograms.h>
+#include <osgShadowVolume/MapTargets.h>
+#include <osgShadowVolume/ShadowPasses.h>
 #include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/SilhouetteCache.h>
-#include <osgShadowVolume/VolumePrograms.h>
+#include <osgShadowVolume/TargetPool.h>
 
 namespace osgShadowVolume
 {
@@ -12,15 +15,19 @@ namespace osgShadowVolume
 /// What a ShadowedScene keeps from frame to frame for the shadows of all its views. Thread safe.
 struct ShadowResources
 {
-    ShadowTargetPool targets;
-    VolumePrograms programs;
+    TargetPool<ShadowTargets> targets;
+    TargetPool<MapTargets> maps;
+    ShadowPasses passes;
+    MapPrograms mapPrograms;
     SilhouetteCache silhouettes;
     osg::ref_ptr<CasterCache> casters = CasterCache::instance();
 
     void releaseGLObjects(osg::State* state)
     {
         targets.releaseGLObjects(state);
-        programs.releaseGLObjects(state);
+        maps.releaseGLObjects(state);
+        passes.releaseGLObjects(state);
+        mapPrograms.releaseGLObjects(state);
         silhouettes.releaseGLObjects(state);
     }
 };

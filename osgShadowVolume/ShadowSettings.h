@@ -56,4 +56,10 @@ struct ShadowSettings
     double illuminanceMaximum = 0.0;
 };
 
+/// Whether illuminance is drawn instead of a picture.
+inline bool measuresLight(const ShadowSettings& settings)
+{
+    return settings.show == Show::ILLUMINANCE || settings.show == Show::LUX;
+}
+
 } // namespace osgShadowVolume

@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/ShadowTargets.h>
 
-#include <osg/ContextData>
 #include <osg/FrameBufferObject>
-#include <osg/GLExtensions>
-#include <osg/GLObjects>
 #include <osg/State>
-
-#include <algorithm>
 
 namespace osgShadowVolume
 {
 
-namespace
-{
-
-enum Framebuffers
-{
-    DepthFramebuffer,
-    LayerFramebuffer,
-    CounterFramebuffer,
-    MaskFramebuffer
-};
-
-/// Deletes framebuffers when their context is current.
-class FramebufferDeleter : public osg::GLObjectManager
-{
-public:
-    explicit FramebufferDeleter(unsigned int contextID)
-        : osg::GLObjectManager("osgShadowVolume::FramebufferDeleter", contextID)
-    {
-    }
-    void deleteGLObject(GLuint id) override
-    {
-        osg::get<osg::GLExtensions>(_contextID)->glDeleteFramebuffers(1, &id);
-    }
-};
-
-} // namespace
-
 ShadowTargets::ShadowTargets(unsigned int contextID, const TargetLayout& layout)
-    : osg::Referenced(true), _contextID(contextID), _layout(layout)
+    : osg::Referenced(true), _layout(layout), _depth(contextID), _layer(contextID),
+      _counting(contextID), _masking(contextID)
 {
     const auto make = [&](GLenum format, int layers)
     { return new TargetTexture(format, layout.width, layout.height, layers, layout.samples); };
@@ -54,10 +23,7 @@ ShadowTargets::ShadowTargets(unsigned int contextID, const TargetLayout& layout)
     _layerDepths = make(GL_R32F, layout.layers);
 }
 
-ShadowTargets::~ShadowTargets()
-{
-    releaseGLObjects(nullptr);
-}
+ShadowTargets::~ShadowTargets() = default;
 
 std::size_t ShadowTargets::getBytes() const
 {
@@ -67,39 +33,29 @@ std::size_t ShadowTargets::getBytes() const
     return bytes;
 }
 
-void ShadowTargets::bind(osg::State& state, unsigned int which, bool color)
-{
-    const auto* gl = state.get<osg::GLExtensions>();
-    if (!_framebuffers[which])
-        gl->glGenFramebuffers(1, &_framebuffers[which]);
-    gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, _framebuffers[which]);
-    glDrawBuffer(color ? GL_COLOR_ATTACHMENT0_EXT : GL_NONE);
-    glReadBuffer(GL_NONE);
-}
-
 void ShadowTargets::bindDepth(osg::State& state)
 {
-    bind(state, DepthFramebuffer, false);
+    _depth.bind(state, false);
     _opaqueDepth->attach(state, GL_DEPTH_ATTACHMENT_EXT, 0);
 }
 
 void ShadowTargets::bindLayer(osg::State& state, int layer)
 {
-    bind(state, LayerFramebuffer, true);
+    _layer.bind(state, true);
     _peeledDepth[layer & 1]->attach(state, GL_DEPTH_ATTACHMENT_EXT, 0);
     _layerDepths->attach(state, GL_COLOR_ATTACHMENT0_EXT, layer);
 }
 
 void ShadowTargets::bindCounter(osg::State& state, int layer)
 {
-    bind(state, CounterFramebuffer, true);
+    _counting.bind(state, true);
     _counter->attach(state, GL_COLOR_ATTACHMENT0_EXT, 0);
     (layer < 0 ? _opaqueDepth : _peeledDepth[layer & 1])->attach(state, GL_DEPTH_ATTACHMENT_EXT, 0);
 }
 
 void ShadowTargets::bindMask(osg::State& state, int layer, int word)
 {
-    bind(state, MaskFramebuffer, true);
+    _masking.bind(state, true);
     _mask->attach(state, GL_COLOR_ATTACHMENT0_EXT, (layer + 1) * _layout.words + word);
 }
 
@@ -110,52 +66,13 @@ osg::Texture* ShadowTargets::getDepth(int layer)
 
 void ShadowTargets::releaseGLObjects(osg::State* state) const
 {
-    if (state && state->getContextID() != _contextID)
-        return;
-    auto* self = const_cast<ShadowTargets*>(this);
-    for (GLuint& framebuffer : self->_framebuffers)
-        if (framebuffer)
-        {
-            osg::get<FramebufferDeleter>(_contextID)->scheduleGLObjectForDeletion(framebuffer);
-            framebuffer = 0;
-        }
+    for (const Framebuffer* framebuffer : {&_depth, &_layer, &_counting, &_masking})
+        framebuffer->releaseGLObjects(state);
     for (const osg::Texture* texture :
          {_opaqueDepth.get(), _peeledDepth[0].get(), _peeledDepth[1].get(), _layerDepths.get(),
           _counter.get(), _mask.get()})
         if (texture)
             texture->releaseGLObjects(state);
-}
-
-osg::ref_ptr<ShadowTargets> ShadowTargetPool::acquire(unsigned int contextID,
-                                                      const TargetLayout& layout)
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    auto& free = _free[contextID];
-    const auto found = std::find_if(free.begin(), free.end(),
-                                    [&](const auto& t) { return t->getLayout() == layout; });
-    if (found == free.end())
-    {
-        free.clear(); // a window that was resized, a number of lights that has changed
-        return new ShadowTargets(contextID, layout);
-    }
-    osg::ref_ptr<ShadowTargets> targets = *found;
-    free.erase(found);
-    return targets;
-}
-
-void ShadowTargetPool::release(unsigned int contextID, osg::ref_ptr<ShadowTargets> targets)
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    _free[contextID].push_back(std::move(targets));
-}
-
-void ShadowTargetPool::releaseGLObjects(osg::State* state)
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    if (!state)
-        _free.clear();
-    else
-        _free.erase(state->getContextID());
 }
 
 } // namespace osgShadowVolume

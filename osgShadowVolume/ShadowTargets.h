@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgShadowVolume/Framebuffer.h>
 #include <osgShadowVolume/TargetTexture.h>
 
 #include <osg/StateSet>
-
-#include <map>
-#include <memory>
-#include <mutex>
-#include <vector>
 
 namespace osgShadowVolume
 {
@@ -34,6 +30,8 @@ struct TargetLayout
 class ShadowTargets : public osg::Referenced
 {
 public:
+    using Layout = TargetLayout;
+
     static constexpr int MaskUnit = 13;        ///< Texture unit of osgsv_mask.
     static constexpr int LayersUnit = 12;      ///< Texture unit of osgsv_layers.
     static constexpr int DepthUnit = 11;       ///< Read while layers are peeled.
@@ -65,29 +63,13 @@ protected:
     ~ShadowTargets() override;
 
 private:
-    void bind(osg::State& state, unsigned int which, bool color);
-
-    const unsigned int _contextID;
     const TargetLayout _layout;
-    GLuint _framebuffers[4] = {};
+    Framebuffer _depth, _layer, _counting, _masking;
     osg::ref_ptr<TargetTexture> _opaqueDepth;
     osg::ref_ptr<TargetTexture> _peeledDepth[2]; ///< By turns.
     osg::ref_ptr<TargetTexture> _layerDepths;    ///< All layers; null without.
     osg::ref_ptr<TargetTexture> _counter;
     osg::ref_ptr<TargetTexture> _mask; ///< Words of the opaque surfaces, then of each layer.
-};
-
-/// The targets of a group: views that are drawn one after the other share them. Thread safe.
-class ShadowTargetPool
-{
-public:
-    osg::ref_ptr<ShadowTargets> acquire(unsigned int contextID, const TargetLayout& layout);
-    void release(unsigned int contextID, osg::ref_ptr<ShadowTargets> targets);
-    void releaseGLObjects(osg::State* state);
-
-private:
-    std::mutex _mutex;
-    std::map<unsigned int, std::vector<osg::ref_ptr<ShadowTargets>>> _free;
 };
 
 } // namespace osgShadowVolume

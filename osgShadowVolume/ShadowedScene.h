@@ -7,6 +7,7 @@
 namespace osgShadowVolume
 {
 
+class IlluminanceView;
 struct ShadowResources;
 
 /// A LitScene whose lights cast hard shadows, right to the pixel, on everything in the group.
@@ -23,6 +24,9 @@ public:
     ShadowedScene(const ShadowedScene& other,
                   const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
     META_Node(osgShadowVolume, ShadowedScene)
+
+    /// Under an event traversal also answers to keys; see ShadowKeys.h.
+    void traverse(osg::NodeVisitor& visitor) override;
 
     void setSettings(const ShadowSettings& settings) { _settings = settings; }
     const ShadowSettings& getSettings() const { return _settings; }
@@ -77,6 +81,7 @@ public:
     void setIlluminanceMaximum(double lux) { _settings.illuminanceMaximum = lux; }
     double getIlluminanceMaximum() const { return _settings.illuminanceMaximum; }
 
+    void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
@@ -87,6 +92,7 @@ protected:
 private:
     ShadowSettings _settings;
     std::unique_ptr<ShadowResources> _resources;
+    std::unique_ptr<IlluminanceView> _illuminance;
 };
 
 } // namespace osgShadowVolume

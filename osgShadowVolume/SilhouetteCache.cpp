@@ -29,7 +29,7 @@ osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const glm::ve
     for (const Silhouette::Sides& sides : silhouette.sides)
         if (!sides.indices.empty())
             volume->sides.emplace_back(float(sides.weight), makeGeometry(vertices, sides.indices));
-    for (const auto* caps : {&silhouette.near, &silhouette.far})
+    for (const auto* caps : {&silhouette.nearCaps, &silhouette.farCaps})
         if (!caps->empty())
             volume->caps.emplace_back(1.0f, makeGeometry(vertices, *caps));
     return volume;

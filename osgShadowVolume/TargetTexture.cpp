@@ -53,6 +53,11 @@ void TargetTexture::apply(osg::State& state) const
         object->bind();
         return;
     }
+    if (!_width) // what osg::State unbinds with
+    {
+        glBindTexture(GL_TEXTURE_2D, 0);
+        return;
+    }
     const auto* gl = state.get<osg::GLExtensions>();
     const GLenum target = getTextureTarget();
     const int depth = std::max(1, _layers);

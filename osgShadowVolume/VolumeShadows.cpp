@@ -15,44 +15,10 @@ namespace osgShadowVolume
 {
 
 using osgMultiRender::SurfaceItem;
-using Pass = VolumePrograms::Pass;
+using Pass = ShadowPasses::Pass;
 
 namespace
 {
-
-/// The draw state that a visit to other framebuffers changes.
-class FramebufferVisit
-{
-public:
-    explicit FramebufferVisit(const osg::GLExtensions& gl) : _gl(gl)
-    {
-        glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
-        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
-        glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
-        glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
-        _scissor = glIsEnabled(GL_SCISSOR_TEST);
-        glDisable(GL_SCISSOR_TEST);
-        glClearDepth(1.0);
-    }
-    ~FramebufferVisit()
-    {
-        _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
-        _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
-        glClearColor(_color[0], _color[1], _color[2], _color[3]);
-        glClearDepth(_depth);
-        if (_scissor)
-            glEnable(GL_SCISSOR_TEST);
-    }
-    FramebufferVisit(const FramebufferVisit&) = delete;
-    FramebufferVisit& operator=(const FramebufferVisit&) = delete;
-
-private:
-    const osg::GLExtensions& _gl;
-    GLint _draw = 0, _read = 0;
-    GLfloat _color[4];
-    GLdouble _depth = 1.0;
-    GLboolean _scissor = GL_FALSE;
-};
 
 void drawScreen(osg::State& state)
 {
@@ -104,6 +70,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     osg::State& state = *renderInfo.getState();
     _contextID = state.getContextID();
     _frameNumber = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
+    _resources.casters->evict(_frameNumber);
     _meshes.assign(getCasters().size(), nullptr);
     _descriptions.assign(getLights().size(), std::string());
     int lights = 0;
@@ -130,6 +97,11 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     _targets = _resources.targets.acquire(_contextID, layout);
 
     FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    // Without it osg::State would go back to its default viewport at our own draws.
+    osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+    base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
+                       osg::StateAttribute::OVERRIDE);
+    state.pushStateSet(base);
     drawDepths(renderInfo, frame, isReceiver);
     makeMask(renderInfo, used, -1);
     for (_layers = 0; _layers < layout.layers; ++_layers)
@@ -138,6 +110,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
             break;
         makeMask(renderInfo, used, _layers);
     }
+    state.popStateSet();
     _lookUp = new osg::StateSet;
     _lookUp->setTextureAttribute(ShadowTargets::MaskUnit, _targets->getMask(),
                                  osg::StateAttribute::OVERRIDE);
@@ -157,7 +130,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     { return item.state->isOn(osgMultiRender::SurfaceState::AlphaTest); };
     const auto draw = [&](Pass pass, bool holes)
     {
-        frame.drawSelected(renderInfo, _resources.programs.get(pass, _tier),
+        frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
                            [&](const SurfaceItem& item) {
                                return isReceiver(item) && isOpaque(item) &&
                                       hasHoles(item) == holes;
@@ -189,7 +162,7 @@ bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     gl->glGenQueries(1, &query);
     gl->glBeginQuery(GL_SAMPLES_PASSED_ARB, query);
     state.pushStateSet(inputs);
-    frame.drawSelected(renderInfo, _resources.programs.get(Pass::Peel, _tier),
+    frame.drawSelected(renderInfo, _resources.passes.get(Pass::Peel, _tier),
                        [&](const SurfaceItem& item)
                        { return isReceiver(item) && !isOpaque(item); });
     state.popStateSet();
@@ -206,7 +179,7 @@ void VolumeShadows::resolve(osg::RenderInfo& renderInfo, int bit)
     osg::ref_ptr<osg::StateSet> inputs = new osg::StateSet;
     inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getCounter());
     inputs->addUniform(new osg::Uniform("osgsv_bit", bit));
-    state.pushStateSet(&_resources.programs.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
+    state.pushStateSet(&_resources.passes.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
     state.pushStateSet(inputs);
     state.apply();
     drawScreen(state);
@@ -244,7 +217,7 @@ const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
 {
     osg::ref_ptr<CasterMesh>& mesh = _meshes[caster];
     if (!mesh)
-        mesh = _resources.casters->get(getCasters()[caster].source, _frameNumber);
+        mesh = _resources.casters->get(getCasters()[caster].source);
     return mesh;
 }
 

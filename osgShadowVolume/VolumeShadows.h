@@ -51,7 +51,7 @@ private:
 
     ShadowResources& _resources;
     Technique _technique = Technique::CPU; ///< Of those that the context has.
-    VolumePrograms::Tier _tier;
+    ShadowPasses::Tier _tier;
     osg::ref_ptr<ShadowTargets> _targets;
     unsigned int _contextID = 0;
     unsigned int _frameNumber = 0;

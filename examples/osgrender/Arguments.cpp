@@ -76,6 +76,7 @@ Switch whole(int& target, int low, int high)
             }};
 }
 
+/// `low` is 0, or so small that it stands for "more than 0".
 Switch number(double& target, double low)
 {
     return {1,
@@ -83,7 +84,8 @@ Switch number(double& target, double low)
             {
                 if (parseNumber(v[0], target) && target >= low)
                     return std::string();
-                return "'" + v[0] + "' is not a number of at least " + std::to_string(low);
+                return "'" + v[0] + "' is not a number " +
+                       (low > 0.0 ? "above 0" : "of at least 0");
             }};
 }
 
@@ -163,6 +165,20 @@ Switches renderSwitches(Arguments& a)
                                    parseTolerance(v[0], a.tolerance, error);
                                    return error;
                                }};
+    switches["--probe"] = {1, [&a](const Values& v)
+                           {
+                               std::string error;
+                               parseProbe(v[0], a.probe.points.emplace_back(), error);
+                               return error;
+                           }};
+    switches["--probe-grid"] = {1, [&a](const Values& v)
+                                {
+                                    std::string error;
+                                    parseProbeGrid(v[0], a.probe.grids.emplace_back(), error);
+                                    return error;
+                                }};
+    switches["--probe-csv"] = text(a.probe.csv);
+    switches["--metres-per-unit"] = number(a.probe.metresPerUnit, 1e-12);
     switches["--title"] = text(a.title);
     switches["--samples"] = whole(a.samples, 0, 64);
     switches["--float"] = flag(a.floatPixels);
@@ -202,6 +218,7 @@ bool parseProcess(const std::vector<std::string>& words, ProcessArguments& argum
 {
     Switches switches;
     switches["--help"] = switches["-h"] = flag(arguments.help);
+    switches["--list-keys"] = flag(arguments.listKeys);
     switches["--html"] = text(arguments.page);
     switches["--backend"] = {1,
                              [&](const Values& v) { return takeBackend(v[0], arguments.backend); }};

@@ -3,6 +3,7 @@
 
 #include "CameraSetting.h"
 #include "Compare.h"
+#include "Probe.h"
 
 #include <map>
 #include <string>
@@ -45,6 +46,13 @@ struct Arguments
     std::string reference; ///< Picture to compare the last frame with; empty: none.
     std::string difference;
     Tolerance tolerance;
+    ProbeSetting probe; ///< Illuminance to measure.
+
+    /// Whether anything that is asked for needs a frame to be drawn.
+    bool drawsFrames() const
+    {
+        return !outputs.empty() || !stats.empty() || listPlan || !reference.empty();
+    }
 
     /// Models and osgviewer's own switches, for osgViewer::Viewer and the model readers.
     std::vector<std::string> viewerArguments;
@@ -58,6 +66,7 @@ struct ProcessArguments
     std::map<std::string, std::string> definitions;
     std::string page; ///< HTML index of all renders; empty: none.
     bool help = false;
+    bool listKeys = false;
     std::vector<std::string> rest; ///< The words that concern a render.
 };
 
@@ -72,5 +81,8 @@ bool parseRender(const std::vector<std::string>& words, Arguments& arguments, st
 
 /// Prints all switches, osgviewer's too.
 void printHelp();
+
+/// Prints the keys that the kits' scenes answer to in osgviewer. False where no kit is found.
+bool printKeys();
 
 } // namespace osgrender

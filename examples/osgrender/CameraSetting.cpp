@@ -16,19 +16,6 @@ namespace osgrender
 namespace
 {
 
-bool parseVector(const std::string& text, osg::Vec3d& vector)
-{
-    const std::vector<std::string> parts = split(text, ',');
-    if (parts.size() != 3)
-        return false;
-    for (int i = 0; i < 3; ++i)
-    {
-        if (!parseNumber(parts[std::size_t(i)], vector[i]))
-            return false;
-    }
-    return true;
-}
-
 bool parseRange(const std::string& text, double low, double high, double& value)
 {
     return parseNumber(text, value) && value >= low && value <= high;

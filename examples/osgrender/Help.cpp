@@ -2,6 +2,7 @@
 #include "Arguments.h"
 
 #include <osg/ArgumentParser>
+#include <osgDB/Registry>
 #include <osgViewer/Viewer>
 
 #include <cstdio>
@@ -55,6 +56,19 @@ Results
   --difference FILE    write the difference picture, white at L (without this switch it is written
                        beside the picture as NAME.difference.png when the comparison fails)
 
+Light measuring: direct illuminance in lux with shadows, by rays; reflected light does not count.
+Lights state candela=N or lumen=N, directional ones lux=N, as user value, description or part of
+their name; a node states metresPerUnit=N. Without -o and the like nothing is drawn.
+  --probe X,Y,Z[,NX,NY,NZ]
+                       print lux at a point of world coordinates for a surface with this normal
+                       (default 0,0,1, horizontal illuminance), and each light's share. Repeatable
+  --probe-grid corner:X,Y,Z;u:X,Y,Z;v:X,Y,Z[;n:NxM][;normal:X,Y,Z]
+                       print minimum, mean, maximum and uniformity (minimum by mean) over a plane
+                       with N points along u and M along v, at the centres of equal cells (default
+                       as many as EN 12464-1 asks for; normal: u x v, turned upwards). Repeatable
+  --probe-csv FILE     every point of every grid
+  --metres-per-unit M  instead of what the scene states
+
 Process
   --backend B          auto, egl or osmesa (default auto: EGL where it works)
   @FILE                script: # begins a comment, '...' and "..." hold words together, a backslash
@@ -62,6 +76,7 @@ Process
                        Switches beside it are put before those of each line
   -D NAME=VALUE        definition for ${NAME}
   --html FILE          gallery page of a script's renders
+  --list-keys          list the keys that the kits' scenes answer to in osgviewer
   --help               this
 
 An empty model renders the background, with a warning. --screen is accepted and has no effect:
@@ -89,6 +104,16 @@ void printHelp()
                             "--borderless-window <x y w h>", "-h or --help"})
         options.erase(own);
     usage.write(std::cout, options);
+}
+
+bool printKeys()
+{
+    // A kit enters its keys when its library is loaded; osgviewer's own are not there.
+    osgDB::Registry::instance()->getReaderWriterForExtension("shadowvolume");
+    const auto& bindings = osg::ApplicationUsage::instance()->getKeyboardMouseBindings();
+    for (const auto& [key, help] : bindings)
+        std::printf("%s  %s\n", key.c_str(), help.c_str());
+    return !bindings.empty();
 }
 
 } // namespace osgrender

@@ -141,10 +141,11 @@ bool hasFrameNumber(const std::string& pattern)
 
 bool checkOutputs(const Arguments& arguments, std::string& error)
 {
-    const bool asked = !arguments.outputs.empty() || !arguments.stats.empty() ||
-                       arguments.listPlan || !arguments.reference.empty();
-    if (!asked)
-        error = "nothing to do: give -o, --stats, --list-plan or --reference";
+    if (!arguments.drawsFrames() && !arguments.probe.isAsked())
+        error =
+            "nothing to do: give -o, --stats, --list-plan, --reference, --probe or --probe-grid";
+    if (!arguments.probe.csv.empty() && arguments.probe.grids.empty())
+        error = "--probe-csv goes with --probe-grid";
     for (const std::string& output : arguments.outputs)
     {
         const std::string extension = osgDB::getLowerCaseFileExtension(output);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osg/Vec3d>
+
 #include <cmath>
 #include <cstdlib>
 #include <string>
@@ -42,6 +44,20 @@ inline std::vector<std::string> split(const std::string& text, char separator)
             parts.back() += c;
     }
     return parts;
+}
+
+/// Reads three numbers with commas between them.
+inline bool parseVector(const std::string& text, osg::Vec3d& vector)
+{
+    const std::vector<std::string> parts = split(text, ',');
+    if (parts.size() != 3)
+        return false;
+    for (int i = 0; i < 3; ++i)
+    {
+        if (!parseNumber(parts[std::size_t(i)], vector[i]))
+            return false;
+    }
+    return true;
 }
 
 } // namespace osgrender

@@ -66,9 +66,8 @@ RenderJob::~RenderJob() = default;
 bool RenderJob::run(std::string& error)
 {
     _counter.reset();
-    const bool done = makeViewer(error) && loadModel(error) && openWindow(error) &&
-                      placeCamera(error) && waitForTiles(error) && drawFrames(error) &&
-                      timeFrames(error);
+    const bool done = makeViewer(error) && loadModel(error) &&
+                      (!_arguments.drawsFrames() || drawAll(error)) && measureLight(error);
     if (_capture)
         _report.glErrors = _capture->getGlErrors() + _counter.getGlErrors();
     // Closing the context belongs to the render: what it prints counts.
@@ -83,6 +82,26 @@ bool RenderJob::run(std::string& error)
     if (!_arguments.stats.empty() && !writeReport(_report, _arguments.stats, writeError))
         error = error.empty() ? writeError : error + "; " + writeError;
     return matches && error.empty();
+}
+
+bool RenderJob::drawAll(std::string& error)
+{
+    return openWindow(error) && placeCamera(error) && waitForTiles(error) && drawFrames(error) &&
+           timeFrames(error);
+}
+
+bool RenderJob::measureLight(std::string& error)
+{
+    if (!_arguments.probe.isAsked())
+        return true;
+    if (!measure(*_model, _arguments.probe, _report.probes, error))
+    {
+        error = "'" + _report.model + "': " + error;
+        return false;
+    }
+    std::printf("%s", probeText(_report.probes).c_str());
+    return _arguments.probe.csv.empty() ||
+           writeProbeCsv(_report.probes, _arguments.probe.csv, error);
 }
 
 bool RenderJob::makeViewer(std::string& error)

@@ -43,6 +43,8 @@ private:
     bool timeFrames(std::string& error);
     bool writeFrame(int index, std::string& error);
     bool compareWithReference(std::string& error);
+    bool drawAll(std::string& error);
+    bool measureLight(std::string& error);
     void gatherStatistics();
     void gatherTimes(unsigned int firstFrame);
     void measureCoverage();

@@ -40,6 +40,35 @@ nlohmann::json toJson(const osgMultiRender::Plan& plan)
             {"counts", plan.counts}};
 }
 
+nlohmann::json toJson(const osg::Vec3d& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+nlohmann::json toJson(const PointResult& point)
+{
+    nlohmann::json lights = nlohmann::json::array();
+    for (const auto& [light, lux] : point.lights)
+        lights.push_back({{"light", light}, {"lux", lux}});
+    return {{"point", toJson(point.probe.point)},
+            {"normal", toJson(point.probe.normal)},
+            {"lux", point.lux},
+            {"lights", lights}};
+}
+
+nlohmann::json toJson(const GridResult& grid)
+{
+    return {{"corner", toJson(grid.grid.corner)},
+            {"u", toJson(grid.grid.u)},
+            {"v", toJson(grid.grid.v)},
+            {"columns", grid.grid.columns},
+            {"rows", grid.grid.rows},
+            {"minimum", grid.minimum},
+            {"mean", grid.mean},
+            {"maximum", grid.maximum},
+            {"uniformity", grid.uniformity}};
+}
+
 } // namespace
 
 double Times::quantile(double share) const
@@ -83,6 +112,10 @@ nlohmann::json toJson(const Report& report)
         {"plans", nlohmann::json::array()}};
     for (const osgMultiRender::Plan& plan : report.plans)
         json["plans"].push_back(toJson(plan));
+    for (const PointResult& point : report.probes.points)
+        json["probes"].push_back(toJson(point));
+    for (const GridResult& grid : report.probes.grids)
+        json["probeGrids"].push_back(toJson(grid));
     if (report.comparison)
         json["comparison"] = *report.comparison;
     return json;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Capture.h"
+#include "Probe.h"
 
 #include <osgMultiRender/Plan.h>
 
@@ -45,6 +46,7 @@ struct Report
     unsigned int glErrors = 0;
     unsigned int warnings = 0;
     std::vector<osgMultiRender::Plan> plans;
+    ProbeResult probes;
     std::optional<std::string> comparison; ///< The finding of --reference.
 };
 

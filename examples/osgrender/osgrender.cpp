@@ -82,10 +82,10 @@ void renderLine(const ScriptLine& line, const ProcessArguments& process, Backend
     if (!entry.error.empty() || !parseProcess(words, own, entry.error))
         return;
     if (own.backend != Backend::Auto || !own.scripts.empty() || !own.definitions.empty() ||
-        !own.page.empty() || own.help)
+        !own.page.empty() || own.help || own.listKeys)
     {
-        entry.error =
-            "--backend, --html, --help, -D and @script concern the whole process, not a line";
+        entry.error = "--backend, --html, --help, --list-keys, -D and @script concern the whole "
+                      "process, not a line";
         return;
     }
     if (!parseRender(own.rest, arguments, entry.error))
@@ -161,6 +161,11 @@ int main(int argc, char** argv)
         printHelp();
         return Done;
     }
+    if (process.listKeys)
+        return printKeys() ? Done
+                           : complain("--list-keys: the plugin osgdb_shadowvolume is not found; "
+                                      "OSG_LIBRARY_PATH says where plugins are",
+                                      Failed);
     if (argc < 2)
         return complain("no model given; osgrender --help lists all switches", WrongArguments);
     if (process.scripts.empty() && !process.page.empty())

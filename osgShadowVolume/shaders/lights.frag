@@ -5,7 +5,7 @@
 //     2 spot, 3 directional with a cone)
 //   1 ambient, constant attenuation      2 diffuse, linear attenuation
 //   3 specular, quadratic attenuation    4 unit spot direction, cosine of the cutoff
-//   5 spot exponent; index among the lights that cast visible shadows, or -1
+//   5 spot exponent; index among the lights that cast visible shadows, or -1; lux at one unit
 // Few lights are uniforms, unrolled by generated code with their types (OSGSV_UNIFORM holds their
 // number). Many lie in osgsv_lights, six texels a light, 256 lights a row; osgsv_lists then holds
 // light indices, and offset and count of each cell of the grid, 1024 a row.
@@ -32,8 +32,11 @@ int osgsv_list(int i)
 float osgsv_lightLeft = 1.0; // the least that a light has left
 #endif
 
-#if !defined(OSGSV_UNIFORM) || OSGSV_UNIFORM > 0
 // `type` is that of texel 0; a constant where the light is unrolled.
+#ifdef OSGSV_ILLUMINANCE
+void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
+                    inout vec3 specular); // illuminance.frag
+#elif !defined(OSGSV_UNIFORM) || OSGSV_UNIFORM > 0
 void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
                     inout vec3 specular)
 {

@@ -183,16 +183,29 @@ TEST_F(OsgRenderGLTest, helpListsAllSwitches)
 {
     const support::ProcessResult result = run({"--help"});
     EXPECT_EQ(result.exitCode, 0);
-    for (const char* name : {"-o FILE",           "--size",        "--samples",
-                             "--float",           "--title",       "--camera home",
-                             "--camera eye",      "--camera-path", "--speed",
-                             "--frames",          "--time",        "--frame-time",
-                             "--paging-limit",    "--stats",       "--timing",
-                             "--list-plan",       "--reference",   "--tolerance",
-                             "--difference",      "--backend",     "@FILE",
-                             "-D NAME=VALUE",     "--html",        "--clear-color",
-                             "-O <option_string>"})
+    for (const char* name : {"-o FILE",        "--size",
+                             "--samples",      "--float",
+                             "--title",        "--camera home",
+                             "--camera eye",   "--camera-path",
+                             "--speed",        "--frames",
+                             "--time",         "--frame-time",
+                             "--paging-limit", "--stats",
+                             "--timing",       "--list-plan",
+                             "--reference",    "--tolerance",
+                             "--difference",   "--backend",
+                             "@FILE",          "-D NAME=VALUE",
+                             "--html",         "--clear-color",
+                             "--list-keys",    "-O <option_string>"})
         EXPECT_NE(result.output.find(name), std::string::npos) << name;
+}
+
+TEST_F(OsgRenderGLTest, keysOfTheViewerAreListed)
+{
+    const support::ProcessResult result = run({"--list-keys"});
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_NE(result.output.find("D  Shadows: volumes, maps, none\n"), std::string::npos);
+    EXPECT_NE(result.output.find("P  Prints what was drawn for each light, and why\n"),
+              std::string::npos);
 }
 
 TEST_F(OsgRenderGLTest, whatCantBeReadOrWrittenFails)
@@ -415,7 +428,7 @@ TEST_F(OsgRenderGLTest, kitsPlansAndProgramsAreReported)
     const nlohmann::json plain = nlohmann::json::parse(read("plain.json"));
     const nlohmann::json kit = nlohmann::json::parse(read("kit.json"));
     ASSERT_EQ(kit.at("plans").size(), 1u);
-    EXPECT_EQ(kit.at("plans")[0].at("kit"), "osgShadowVolume::LitScene");
+    EXPECT_EQ(kit.at("plans")[0].at("kit"), "osgShadowVolume::ShadowedScene");
     EXPECT_FALSE(kit.at("plans")[0].at("entries").empty());
     EXPECT_GE(kit.at("programs").at("compiled"), 1.0);
     // One pass draws each leaf once, as without the kit.

@@ -3,9 +3,14 @@
 #include <support/CompareImage.h>
 #include <support/HeadlessViewer.h>
 #include <support/InventorModels.h>
+#include <support/NotifyCapture.h>
 #include <support/TemporaryFolder.h>
 
+#include <osgShadowVolume/SceneOptions.h>
+#include <osgShadowVolume/ShadowKeys.h>
+
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 
 #include <filesystem>
 
@@ -14,6 +19,7 @@
 namespace
 {
 
+using osgShadowVolume::ShadowedScene;
 using Picture = osg::ref_ptr<osg::Image>;
 using Environment = std::map<std::string, std::string>;
 
@@ -172,8 +178,10 @@ TEST_F(ShadowVolumePlugin, optimizerAndThreadsDoNotChangeThePicture)
 TEST_F(ShadowVolumePlugin, osgconvListsTheOptions)
 {
     const support::ProcessResult result = run({"osgconv", "--format", "shadowvolume"});
-    for (const char* option : {"shadowvolume.lighting=pixel|vertex|off",
-                               "shadowvolume.lights=modes|all", "shadowvolume.shadows=off"})
+    for (const char* option :
+         {"shadowvolume.lighting=pixel|vertex|off", "shadowvolume.lights=modes|all",
+          "shadowvolume.shadows=volumes|map|off", "shadowvolume.technique=auto|tess|geometry|cpu",
+          "shadowvolume.mapsize=<16..65536>", "(default volumes)"})
         EXPECT_NE((result.output + result.errors).find(option), std::string::npos) << option;
 }
 
@@ -182,12 +190,186 @@ TEST_F(ShadowVolumePlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
     const support::ProcessResult result =
         run({"osgconv", _king + ".(lihgting=off).shadowvolume", _folder.file("x.osgt")});
     const std::string text = result.output + result.errors;
-    EXPECT_NE(text.find("setting 'lihgting=off' is not known; there are shadows=off, "
-                        "lighting=pixel|vertex|off, lights=modes|all"),
+    EXPECT_NE(text.find("shadowvolume: setting 'lihgting=off' is not known; there are "
+                        "shadows=volumes|map|off, technique=auto|tess|geometry|cpu, "),
               std::string::npos)
         << text;
+    EXPECT_NE(text.find("lighting=pixel|vertex|off, lights=modes|all"), std::string::npos) << text;
     EXPECT_NE(result.exitCode, 0);
     EXPECT_FALSE(std::filesystem::exists(_folder.file("x.osgt")));
+}
+
+TEST_F(ShadowVolumePlugin, wrongValuesAreNamedWithThoseThatMayBeSaid)
+{
+    const std::pair<const char*, const char*> cases[] = {
+        {"technique=gpu", "setting 'technique=gpu': 'gpu' is none of auto, tess, geometry, cpu"},
+        {"mapsize=4", "setting 'mapsize=4': '4' is not a whole number from 16 to 65536"},
+        {"shadows", "setting 'shadows=true': 'true' is none of volumes, map, off"},
+        {"shadows=map,lighting=vertex", "setting 'shadows=map' needs lighting=pixel"}};
+    for (const auto& [settings, message] : cases)
+    {
+        const support::ProcessResult result = run(
+            {"osgconv", _king + ".(" + settings + ").shadowvolume", _folder.file("wrong.osgt")});
+        const std::string text = result.output + result.errors;
+        EXPECT_NE(text.find(std::string("shadowvolume: ") + message), std::string::npos) << text;
+        EXPECT_NE(result.exitCode, 0);
+    }
+}
+
+TEST_F(ShadowVolumePlugin, shadowsAreOnUnlessTheSettingsSayOtherwise)
+{
+    const std::pair<const char*, osgShadowVolume::Shadows> cases[] = {
+        {"", osgShadowVolume::Shadows::VOLUMES},
+        {".(shadows=map)", osgShadowVolume::Shadows::MAP},
+        {".(shadows=off)", osgShadowVolume::Shadows::OFF},
+        {".(lighting=vertex)", osgShadowVolume::Shadows::OFF}};
+    for (const auto& [settings, shadows] : cases)
+    {
+        const osg::ref_ptr<osg::Node> node =
+            osgDB::readRefNodeFile(_king + settings + ".shadowvolume");
+        const auto* scene = dynamic_cast<osgShadowVolume::ShadowedScene*>(node.get());
+        ASSERT_TRUE(scene) << settings;
+        EXPECT_EQ(scene->getShadows(), shadows) << settings;
+    }
+}
+
+TEST_F(ShadowVolumePlugin, allSettingsOfShadowsAreSavedInEachFormat)
+{
+    osg::ref_ptr<ShadowedScene> scene = new ShadowedScene;
+    scene->addChild(osgDB::readRefNodeFile(_king));
+    const std::pair<const char*, const char*> settings[] = {{"shadows", "map"},
+                                                            {"technique", "cpu"},
+                                                            {"transparent", "none"},
+                                                            {"headlight", "shadow"},
+                                                            {"layers", "7"},
+                                                            {"mapsize", "512"},
+                                                            {"pcf", "5"},
+                                                            {"mapbudget", "17"},
+                                                            {"show", "mask"},
+                                                            {"light", "12"},
+                                                            {"keys", "off"},
+                                                            {"metres", "0.25"},
+                                                            {"maxlux", "1234.5"},
+                                                            {"lights", "all"},
+                                                            {"tolerance", "0.125"}};
+    for (const auto& [name, text] : settings)
+    {
+        std::string error;
+        ASSERT_TRUE(setSceneOption(*scene, name, text, error)) << error;
+    }
+    for (const char* extension : {"osgt", "osgb", "osgx", "osg"})
+    {
+        const std::string file = _folder.file(std::string("all.") + extension);
+        ASSERT_TRUE(osgDB::writeNodeFile(*scene, file)) << extension;
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file);
+        const auto* read = dynamic_cast<ShadowedScene*>(node.get());
+        ASSERT_TRUE(read) << extension;
+        EXPECT_EQ(read->getNumChildren(), 1u) << extension;
+        for (const osgShadowVolume::SceneOption& option : osgShadowVolume::sceneOptions())
+            EXPECT_EQ(option.format(*read), option.format(*scene)) << extension << option.name;
+    }
+}
+
+TEST_F(ShadowVolumePlugin, filesWithALitSceneStillLoad)
+{
+    // As version 0.1.0 without shadows wrote them.
+    const std::string osgt = _folder.write("old.osgt", R"(#Ascii Scene
+#Version 162
+#Generator OpenSceneGraph 3.6.5
+
+osgShadowVolume::LitScene {
+  UniqueID 1
+  Lighting VERTEX
+  LightScope ALL
+  LightTolerance 0.25
+}
+)");
+    const std::string dotosg = _folder.write("old.osg", R"(osgShadowVolume::LitScene {
+  lighting VERTEX
+  lightScope ALL
+  num_children 0
+}
+)");
+    for (const std::string& file : {osgt, dotosg})
+    {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file);
+        const auto* scene = dynamic_cast<osgShadowVolume::LitScene*>(node.get());
+        ASSERT_TRUE(scene) << file;
+        EXPECT_FALSE(dynamic_cast<const ShadowedScene*>(scene));
+        EXPECT_EQ(scene->getLighting(), osgShadowVolume::LitScene::Lighting::VERTEX) << file;
+        EXPECT_EQ(scene->getLightScope(), osgShadowVolume::LitScene::LightScope::ALL) << file;
+    }
+}
+
+TEST_F(ShadowVolumePlugin, aWrongValueInAFileIsNamedAndTheDefaultCounts)
+{
+    const std::string file = _folder.write("wrong.osg", R"(osgShadowVolume::ShadowedScene {
+  shadows sharp
+  mapsize 3
+  pcf 3
+  num_children 0
+}
+)");
+    support::NotifyCapture capture;
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(file);
+    const auto* scene = dynamic_cast<ShadowedScene*>(node.get());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->getShadows(), osgShadowVolume::Shadows::VOLUMES);
+    EXPECT_EQ(scene->getMapSize(), 1024u);
+    EXPECT_EQ(scene->getMapSamples(), 3u);
+    const support::NotifyCapture::Lines expected = {
+        "osgShadowVolume::ShadowedScene: shadows sharp: 'sharp' is none of volumes, map, off; the "
+        "default counts",
+        "osgShadowVolume::ShadowedScene: mapsize 3: '3' is not a whole number from 16 to 65536; "
+        "the default counts"};
+    EXPECT_EQ(capture.takeWarnings(), expected);
+}
+
+TEST_F(ShadowVolumePlugin, numbersInFilesThatNoSettingAllowsBecomeTheDefault)
+{
+    const std::string text = R"(#Ascii Scene
+#Version 162
+#Generator OpenSceneGraph 3.6.5
+
+osgShadowVolume::ShadowedScene {
+  UniqueID 1
+  LightTolerance -2
+  TransparentLayers 4000000000
+  MapSize 0
+  MapSamples 3
+}
+)";
+    support::NotifyCapture capture;
+    const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_folder.write("far.osgt", text));
+    const auto* scene = dynamic_cast<ShadowedScene*>(node.get());
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->getTransparentLayers(), 4u);
+    EXPECT_EQ(scene->getMapSize(), 1024u);
+    EXPECT_EQ(scene->getMapSamples(), 3u);
+    EXPECT_EQ(scene->getLightTolerance(), 0.5 / 255.0);
+    const support::NotifyCapture::Lines expected = {
+        "osgShadowVolume::ShadowedScene: layers in a file: '4000000000' is not a whole number from "
+        "0 to 64; the default counts",
+        "osgShadowVolume::ShadowedScene: mapsize in a file: '0' is not a whole number from 16 to "
+        "65536; the default counts",
+        "osgShadowVolume::ShadowedScene: tolerance in a file: '-2' is not a number from 0 to 1; "
+        "the default counts"};
+    EXPECT_EQ(capture.takeWarnings(), expected);
+}
+
+TEST_F(ShadowVolumePlugin, osgviewersHelpHasTheKeys)
+{
+    const support::ProcessResult result = run({"osgviewer", "-e", "shadowvolume", "--help-keys"});
+    for (const osgShadowVolume::ShadowKey& key : osgShadowVolume::shadowKeys())
+        EXPECT_NE(result.output.find(key.help), std::string::npos) << key.key << result.output;
+}
+
+TEST_F(ShadowVolumePlugin, withoutADisplayNoKeysAreListed)
+{
+    const support::ProcessResult result =
+        run({"osgviewer", "-e", "egl", "--window", "0", "0", "64", "48", _king + ".shadowvolume"});
+    EXPECT_EQ(result.exitCode, 0);
+    EXPECT_EQ((result.output + result.errors).find("keys for shadows"), std::string::npos);
 }
 
 TEST_F(ShadowVolumePlugin, belowGL33OneLineSaysSoAndTheFixedFunctionDraws)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What an embedding application does: a LitScene over a model, saved and read back by name.
 #include <osgShadowVolume/LitScene.h>
+#include <osgShadowVolume/SceneOptions.h>
 
 #include <osg/ShapeDrawable>
 #include <osgDB/ReadFile>
@@ -24,6 +25,11 @@ int main(int argc, char** argv)
         return std::fprintf(stderr, "%s did not come back as it was written\n", argv[1]), 1;
     // The pseudo-loader, too, is found in the installation.
     osg::ref_ptr<osg::Node> wrapped =
-        osgDB::readRefNodeFile(std::string(argv[1]) + ".shadowvolume");
-    return dynamic_cast<osgShadowVolume::LitScene*>(wrapped.get()) ? 0 : 1;
+        osgDB::readRefNodeFile(std::string(argv[1]) + ".(shadows=map).shadowvolume");
+    auto* shadowed = dynamic_cast<osgShadowVolume::ShadowedScene*>(wrapped.get());
+    std::string error;
+    if (!shadowed || shadowed->getShadows() != osgShadowVolume::Shadows::MAP ||
+        !setSceneOption(*shadowed, "technique", "cpu", error))
+        return std::fprintf(stderr, "no ShadowedScene: %s\n", error.c_str()), 1;
+    return 0;
 }

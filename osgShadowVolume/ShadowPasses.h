@@ -12,7 +12,7 @@ namespace osgShadowVolume
 {
 
 /// The states in which shadow volumes, depths and masks are drawn. Thread safe.
-class VolumePrograms
+class ShadowPasses
 {
 public:
     enum class Pass

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <osgShadowVolume/VolumePrograms.h>
+#include <osgShadowVolume/ShadowPasses.h>
 
 #include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/Shaders.h>
+#include <osgShadowVolume/VolumeProgram.h>
 
 #include <osg/BlendEquation>
 #include <osg/BlendFunc>
@@ -24,7 +25,7 @@ namespace osgShadowVolume
 namespace
 {
 
-using Pass = VolumePrograms::Pass;
+using Pass = ShadowPasses::Pass;
 
 constexpr auto On = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 constexpr auto Off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
@@ -90,32 +91,20 @@ std::vector<Stage> stagesOf(Pass pass)
     const Stage peel{Shader::FRAGMENT, "peel.frag", shaders::peel_frag};
     const Stage screen{Shader::VERTEX, "resolve.vert", shaders::resolve_vert};
     const Stage resolve{Shader::FRAGMENT, "resolve.frag", shaders::resolve_frag};
-    const Stage volume{Shader::VERTEX, "volume.vert", shaders::volume_vert};
-    const Stage count{Shader::FRAGMENT, "volume.frag", shaders::volume_frag};
     switch (pass)
     {
     case Pass::Depth:
     case Pass::Peel:
         return {depth, peel};
-    case Pass::Masked:
-        return {};
     case Pass::Clear:
     case Pass::Resolve:
         return {screen, resolve};
-    case Pass::TessSides:
-        return {volume, {Shader::TESSCONTROL, "volume.tesc", shaders::volume_tesc},
-                {Shader::TESSEVALUATION, "volume.tese", shaders::volume_tese}, count};
-    case Pass::GeometrySides:
-    case Pass::GeometryCaps:
-        return {volume, {Shader::GEOMETRY, "volume.geom", shaders::volume_geom}, count};
-    case Pass::TriangleSides:
-    case Pass::TriangleCaps:
-        return {volume, count};
+    default:
+        return {};
     }
-    return {};
 }
 
-std::string headOf(Pass pass, const VolumePrograms::Tier& tier)
+std::string headOf(Pass pass, const ShadowPasses::Tier& tier)
 {
     std::string head = "#version " + std::to_string(tier.language) + " compatibility\n";
     if (tier.language < 400)
@@ -124,16 +113,12 @@ std::string headOf(Pass pass, const VolumePrograms::Tier& tier)
     head += "#define OSGSV_SAMPLES " + std::to_string(tier.samples) + "\n";
     if (pass == Pass::Peel)
         head += "#define OSGSV_PEEL\n";
-    if (isCaps(pass))
-        head += "#define OSGSV_CAPS\n";
-    if (pass == Pass::TriangleSides || pass == Pass::TriangleCaps)
-        head += "#define OSGSV_TRIANGLES\n";
     return head;
 }
 
 } // namespace
 
-const osg::StateSet& VolumePrograms::get(Pass pass, const Tier& tier, bool zFail)
+const osg::StateSet& ShadowPasses::get(Pass pass, const Tier& tier, bool zFail)
 {
     const Key key{pass, tier, zFail};
     std::lock_guard<std::mutex> lock(_mutex);
@@ -143,7 +128,7 @@ const osg::StateSet& VolumePrograms::get(Pass pass, const Tier& tier, bool zFail
     return *state;
 }
 
-osg::ref_ptr<osg::StateSet> VolumePrograms::make(const Key& key)
+osg::ref_ptr<osg::StateSet> ShadowPasses::make(const Key& key)
 {
     osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
     state->setThreadSafeRefUnref(true);
@@ -163,8 +148,22 @@ osg::ref_ptr<osg::StateSet> VolumePrograms::make(const Key& key)
     return state;
 }
 
-osg::ref_ptr<osg::Program> VolumePrograms::makeProgram(const Key& key)
+osg::ref_ptr<osg::Program> ShadowPasses::makeProgram(const Key& key)
 {
+    switch (key.pass)
+    {
+    case Pass::TessSides:
+        return makeVolumeProgram(VolumePart::TESS_SIDES, key.tier.language);
+    case Pass::GeometrySides:
+        return makeVolumeProgram(VolumePart::GEOMETRY_SIDES, key.tier.language);
+    case Pass::GeometryCaps:
+        return makeVolumeProgram(VolumePart::CAPS, key.tier.language);
+    case Pass::TriangleSides:
+    case Pass::TriangleCaps:
+        return makeVolumeProgram(VolumePart::SILHOUETTE, key.tier.language);
+    default:
+        break;
+    }
     const std::vector<Stage> stages = stagesOf(key.pass);
     if (stages.empty())
         return nullptr;
@@ -180,18 +179,10 @@ osg::ref_ptr<osg::Program> VolumePrograms::makeProgram(const Key& key)
         program->addShader(shader);
     }
     program->setName(std::string("osgShadowVolume ") + stages.back().file);
-    if (key.pass == Pass::GeometrySides || key.pass == Pass::GeometryCaps)
-    {
-        const bool caps = key.pass == Pass::GeometryCaps;
-        program->setParameter(GL_GEOMETRY_VERTICES_OUT_EXT, caps ? 6 : 4);
-        program->setParameter(GL_GEOMETRY_INPUT_TYPE_EXT,
-                              caps ? GL_TRIANGLES : GL_LINES_ADJACENCY_EXT);
-        program->setParameter(GL_GEOMETRY_OUTPUT_TYPE_EXT, GL_TRIANGLE_STRIP);
-    }
     return program;
 }
 
-void VolumePrograms::releaseGLObjects(osg::State* state) const
+void ShadowPasses::releaseGLObjects(osg::State* state) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
     for (const auto& [key, stateSet] : _states)

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgShadowVolume/CasterMesh.h>
+
+#include <osg/observer_ptr>
+
+#include <list>
+#include <mutex>
+#include <unordered_map>
+
+namespace osgShadowVolume
+{
+
+/// The meshes of casters, shared by groups, views, lights and frames.
+///
+/// A mesh is made anew where a vertex array or the indices of one of its Geometries were exchanged
+/// or made dirty(), and forgotten 60 frames after its last use or when one of its Drawables dies.
+/// Functions may be called from any thread.
+class OSGSHADOWVOLUME_EXPORT CasterCache : public osg::Referenced
+{
+public:
+    /// The cache of the process; it lives as long as somebody holds it.
+    static osg::ref_ptr<CasterCache> instance();
+
+    static constexpr unsigned int FramesUnused = 60;
+
+    /// The mesh of these Drawables, built now where it is not there or no longer true. None of them
+    /// may change while it runs.
+    osg::ref_ptr<CasterMesh> get(const CasterSource& source);
+
+    /// Forgets what is no longer used; each view calls it in each frame. Viewers with frame numbers
+    /// of their own may share a cache; their frames add up.
+    void evict(unsigned int frameNumber);
+
+    std::size_t getSize() const;  ///< Meshes that it holds.
+    std::size_t getBuilt() const; ///< Meshes made so far.
+
+protected:
+    ~CasterCache() override;
+
+private:
+    /// What a mesh was made from. Held, so that no other array comes to lie at the same address.
+    struct Content
+    {
+        osg::ref_ptr<const osg::BufferData> data;
+        unsigned int modifiedCount;
+        std::size_t size;
+        bool operator==(const Content& o) const
+        {
+            return data == o.data && modifiedCount == o.modifiedCount && size == o.size;
+        }
+    };
+    struct Entry
+    {
+        std::vector<osg::observer_ptr<const osg::Drawable>> drawables;
+        std::vector<Content> contents;
+        osg::ref_ptr<CasterMesh> mesh;
+        std::size_t lastUse; ///< In frames counted here.
+    };
+    using Key = std::vector<const osg::Drawable*>;
+    struct Hash
+    {
+        std::size_t operator()(const Key& key) const;
+    };
+    static std::vector<Content> contentsOf(const CasterSource& source);
+    static bool isAlive(const Entry& entry);
+
+    mutable std::mutex _mutex;
+    std::unordered_map<Key, Entry, Hash> _entries;
+    std::size_t _built = 0;
+    std::size_t _frames = 0;
+    unsigned int _frameNumber = 0;
+};
+
+} // namespace osgShadowVolume

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/CasterCollector.h>
+
+#include <osg/Billboard>
+#include <osg/Camera>
+#include <osg/ClearNode>
+#include <osg/Projection>
+#include <osg/ValueObject>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+/// Whether the value is one that says no.
+bool isNo(const osg::ValueObject& value)
+{
+    const auto is = [&](auto no)
+    {
+        const auto* typed = dynamic_cast<const osg::TemplateValueObject<decltype(no)>*>(&value);
+        return typed && typed->getValue() == no;
+    };
+    return is(false) || is(0) || is(0u) || is(0.0f) || is(0.0) || is(std::string("0")) ||
+           is(std::string("false"));
+}
+
+const char* nameOf(NoCaster reason)
+{
+    switch (reason)
+    {
+    case NoCaster::TEXT:
+        return "texts";
+    case NoCaster::PARTICLES:
+        return "particle systems";
+    case NoCaster::POINTS_AND_LINES:
+        return "points and lines";
+    default:
+        return "drawables without triangles";
+    }
+}
+
+/// Of the diffuse colour; both sides count, as volumes have no side either.
+float alphaOf(const osg::Drawable& drawable, const osg::Material* material)
+{
+    const bool followsColor = !material || material->getColorMode() == osg::Material::DIFFUSE ||
+                              material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE;
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (followsColor && geometry)
+        if (const osg::Array* colors = geometry->getColorArray())
+        {
+            if (colors->getBinding() != osg::Array::BIND_OVERALL || !colors->getNumElements())
+                return 1.0f;
+            if (const auto* floats = dynamic_cast<const osg::Vec4Array*>(colors))
+                return floats->front().a();
+            if (const auto* bytes = dynamic_cast<const osg::Vec4ubArray*>(colors))
+                return bytes->front().a() / 255.0f;
+            return 1.0f;
+        }
+    if (!material)
+        return 1.0f;
+    return std::max(material->getDiffuse(osg::Material::FRONT).a(),
+                    material->getDiffuse(osg::Material::BACK).a());
+}
+
+bool isDynamic(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    return drawable.getDataVariance() == osg::Object::DYNAMIC ||
+           (geometry && geometry->getVertexArray() &&
+            geometry->getVertexArray()->getDataVariance() == osg::Object::DYNAMIC);
+}
+
+} // namespace
+
+CasterCollector::CasterCollector(osgUtil::CullVisitor& view, TransparentCasters transparent)
+    : osg::NodeVisitor(NODE_VISITOR, TRAVERSE_ACTIVE_CHILDREN), _transparent(transparent)
+{
+    setTraversalMask(view.getTraversalMask());
+    setNodeMaskOverride(view.getNodeMaskOverride());
+    setTraversalNumber(view.getTraversalNumber());
+    setFrameStamp(const_cast<osg::FrameStamp*>(view.getFrameStamp()));
+    getNodePath() = view.getNodePath();
+
+    _cullStack.setLODScale(view.getLODScale());
+    _cullStack.setCullingMode(osg::CullSettings::NO_CULLING);
+    osg::ref_ptr<osg::Viewport> viewport = view.getViewport();
+    _cullStack.pushViewport(viewport ? viewport.get() : new osg::Viewport(0, 0, 1, 1));
+    _cullStack.pushProjectionMatrix(new osg::RefMatrix(*view.getProjectionMatrix()));
+    _cullStack.pushReferenceViewPoint(view.getReferenceViewPoint());
+    _matrices.push_back({new osg::RefMatrix(*view.getModelViewMatrix())});
+
+    std::vector<const osg::StateSet*> stateSets;
+    for (const osgUtil::StateGraph* graph = view.getCurrentStateGraph(); graph;
+         graph = graph->_parent)
+        if (graph->getStateSet())
+            stateSets.push_back(graph->getStateSet());
+    for (auto it = stateSets.rbegin(); it != stateSets.rend(); ++it)
+        addTo(_state, **it);
+}
+
+void CasterCollector::collect(osg::Node& node)
+{
+    if (casts(node))
+        node.traverse(*this);
+}
+
+bool CasterCollector::casts(const osg::Node& node)
+{
+    const osg::UserDataContainer* data = node.getUserDataContainer();
+    if (!data)
+        return true;
+    const auto* value = dynamic_cast<const osg::ValueObject*>(data->getUserObject("castShadow"));
+    bool no = value && isNo(*value);
+    for (unsigned int i = 0; i != data->getNumDescriptions(); ++i)
+        no = no || data->getDescriptions()[i] == "castShadow=0";
+    if (no)
+        ++_leftOut["castShadow=0"];
+    return !no;
+}
+
+void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
+{
+    using osg::StateAttribute;
+    // As osg::State: what comes later wins, unless what was before overrides it unprotected.
+    const StateAttribute::GLModeValue blend = stateSet.getMode(GL_BLEND);
+    if (!(blend & StateAttribute::INHERIT) &&
+        (!(state.blend & StateAttribute::OVERRIDE) || (blend & StateAttribute::PROTECTED)))
+        state.blend = blend;
+    if (const auto* pair = stateSet.getAttributePair(StateAttribute::MATERIAL))
+        if (!(state.materialOverride & StateAttribute::OVERRIDE) ||
+            (pair->second & StateAttribute::PROTECTED))
+        {
+            state.material = static_cast<const osg::Material*>(pair->first.get());
+            state.materialOverride = pair->second;
+        }
+}
+
+bool CasterCollector::isLeftOut(const osg::Drawable& drawable, const State& state) const
+{
+    if (_transparent == TransparentCasters::ALL || !(state.blend & osg::StateAttribute::ON))
+        return false;
+    const float alpha = alphaOf(drawable, state.material);
+    return alpha < (_transparent == TransparentCasters::NONE ? 1.0f : 0.5f);
+}
+
+void CasterCollector::apply(osg::Node& node)
+{
+    if (!casts(node))
+        return;
+    const State outer = _state;
+    if (node.getStateSet())
+        addTo(_state, *node.getStateSet());
+    traverse(node);
+    _state = outer;
+}
+
+void CasterCollector::apply(osg::Transform& node)
+{
+    if (!casts(node))
+        return;
+    const State outer = _state;
+    if (node.getStateSet())
+        addTo(_state, *node.getStateSet());
+    // The very operations of osgUtil::CullVisitor, so that the matrix is the same bit for bit.
+    osg::ref_ptr<osg::RefMatrix> matrix = new osg::RefMatrix(*_matrices.back().modelview);
+    node.computeLocalToWorldMatrix(*matrix, this);
+    _matrices.push_back({matrix, node.getReferenceFrame()});
+    traverse(node);
+    _matrices.pop_back();
+    if (_pushed > _matrices.size())
+    {
+        _cullStack.popModelViewMatrix();
+        --_pushed;
+    }
+    _state = outer;
+}
+
+void CasterCollector::apply(osg::Drawable& drawable)
+{
+    if (!casts(drawable))
+        return;
+    const NoCaster reason = whyNoCaster(drawable);
+    if (reason != NoCaster::CASTS)
+    {
+        ++_leftOut[nameOf(reason)];
+        return;
+    }
+    State state = _state;
+    if (drawable.getStateSet())
+        addTo(state, *drawable.getStateSet());
+    if (isLeftOut(drawable, state))
+    {
+        ++_leftOut["transparent"];
+        return;
+    }
+    Caster& caster = casterFor(drawable);
+    caster.source.push_back(&drawable);
+    caster.box.expandBy(drawable.getBoundingBox());
+}
+
+Caster& CasterCollector::casterFor(const osg::Drawable& drawable)
+{
+    Matrix& matrix = _matrices.back();
+    const bool dynamic = isDynamic(drawable);
+    if (!dynamic && matrix.caster >= 0)
+        return _casters[std::size_t(matrix.caster)];
+    if (!dynamic)
+        matrix.caster = int(_casters.size());
+    _casters.emplace_back();
+    _casters.back().modelview = matrix.modelview;
+    _casters.back().dynamic = dynamic;
+    return _casters.back();
+}
+
+void CasterCollector::apply(osg::Camera&)
+{
+    ++_leftOut["cameras"];
+}
+
+void CasterCollector::apply(osg::Projection&)
+{
+    ++_leftOut["projections"];
+}
+
+void CasterCollector::apply(osg::Billboard&)
+{
+    ++_leftOut["billboards"];
+}
+
+void CasterCollector::apply(osg::ClearNode&)
+{
+    ++_leftOut["clear nodes"];
+}
+
+osg::CullStack& CasterCollector::cullStack() const
+{
+    for (; _pushed != _matrices.size(); ++_pushed)
+        _cullStack.pushModelViewMatrix(_matrices[_pushed].modelview, _matrices[_pushed].frame);
+    return _cullStack;
+}
+
+osg::Vec3 CasterCollector::getEyePoint() const
+{
+    return cullStack().getEyeLocal();
+}
+
+osg::Vec3 CasterCollector::getViewPoint() const
+{
+    return cullStack().getViewPointLocal();
+}
+
+float CasterCollector::getDistanceToEyePoint(const osg::Vec3& point, bool withLODScale) const
+{
+    const float distance = (point - cullStack().getEyeLocal()).length();
+    return withLODScale ? distance * _cullStack.getLODScale() : distance;
+}
+
+float CasterCollector::getDistanceFromEyePoint(const osg::Vec3& point, bool withLODScale) const
+{
+    const osg::Matrixd& m = *_matrices.back().modelview;
+    const float distance =
+        float(-(point.x() * m(0, 2) + point.y() * m(1, 2) + point.z() * m(2, 2) + m(3, 2)));
+    return withLODScale ? distance * _cullStack.getLODScale() : distance;
+}
+
+float CasterCollector::getDistanceToViewPoint(const osg::Vec3& point, bool withLODScale) const
+{
+    const float distance = (point - cullStack().getViewPointLocal()).length();
+    return withLODScale ? distance * _cullStack.getLODScale() : distance;
+}
+
+} // namespace osgShadowVolume

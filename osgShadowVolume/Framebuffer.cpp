@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/Framebuffer.h>
+
+#include <osg/ContextData>
+#include <osg/FrameBufferObject>
+#include <osg/GLObjects>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+/// Deletes framebuffers when their context is current.
+class FramebufferDeleter : public osg::GLObjectManager
+{
+public:
+    explicit FramebufferDeleter(unsigned int contextID)
+        : osg::GLObjectManager("osgShadowVolume::FramebufferDeleter", contextID)
+    {
+    }
+    void deleteGLObject(GLuint id) override
+    {
+        osg::get<osg::GLExtensions>(_contextID)->glDeleteFramebuffers(1, &id);
+    }
+};
+
+} // namespace
+
+Framebuffer::~Framebuffer()
+{
+    releaseGLObjects(nullptr);
+}
+
+void Framebuffer::bind(osg::State& state, bool color)
+{
+    const auto* gl = state.get<osg::GLExtensions>();
+    if (!_id)
+        gl->glGenFramebuffers(1, &_id);
+    gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, _id);
+    glDrawBuffer(color ? GL_COLOR_ATTACHMENT0_EXT : GL_NONE);
+    glReadBuffer(GL_NONE);
+}
+
+void Framebuffer::releaseGLObjects(osg::State* state) const
+{
+    if (!_id || (state && state->getContextID() != _contextID))
+        return;
+    osg::get<FramebufferDeleter>(_contextID)->scheduleGLObjectForDeletion(_id);
+    _id = 0;
+}
+
+FramebufferVisit::FramebufferVisit(const osg::GLExtensions& gl) : _gl(gl)
+{
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
+    glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
+    glGetIntegerv(GL_VIEWPORT, _viewport);
+    glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
+    glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
+    _scissor = glIsEnabled(GL_SCISSOR_TEST);
+    glDisable(GL_SCISSOR_TEST);
+    glClearDepth(1.0);
+}
+
+FramebufferVisit::~FramebufferVisit()
+{
+    _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
+    _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
+    glViewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]);
+    glClearColor(_color[0], _color[1], _color[2], _color[3]);
+    glClearDepth(_depth);
+    if (_scissor)
+        glEnable(GL_SCISSOR_TEST);
+}
+
+} // namespace osgShadowVolume

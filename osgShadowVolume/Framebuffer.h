@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/GLExtensions>
+#include <osg/State>
+
+namespace osgShadowVolume
+{
+
+/// A framebuffer object of one graphics context, without attachments of its own.
+class Framebuffer
+{
+public:
+    explicit Framebuffer(unsigned int contextID) : _contextID(contextID) {}
+    /// Deletes it when the context is current next.
+    ~Framebuffer();
+    Framebuffer(const Framebuffer&) = delete;
+    Framebuffer& operator=(const Framebuffer&) = delete;
+
+    /// Binds it for drawing, into colour attachment 0 or into depth alone. Attachments stay.
+    void bind(osg::State& state, bool color);
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    const unsigned int _contextID;
+    mutable GLuint _id = 0;
+};
+
+/// While it lives, drawing may visit other framebuffers: it puts back the bindings, the viewport,
+/// the scissor test and the values for clearing. There is no scissor test at first.
+class FramebufferVisit
+{
+public:
+    explicit FramebufferVisit(const osg::GLExtensions& gl);
+    ~FramebufferVisit();
+    FramebufferVisit(const FramebufferVisit&) = delete;
+    FramebufferVisit& operator=(const FramebufferVisit&) = delete;
+
+private:
+    const osg::GLExtensions& _gl;
+    GLint _draw = 0, _read = 0;
+    GLint _viewport[4] = {};
+    GLfloat _color[4] = {};
+    GLdouble _depth = 1.0;
+    GLboolean _scissor = GL_FALSE;
+};
+
+} // namespace osgShadowVolume

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+#include <osgShadowVolume/SceneOptions.h>
+
+#include <osgShadowVolume/EnumNames.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace osgShadowVolume
+{
+
+namespace
+{
+
+/// The whole text as a number, in any locale.
+template <class Number> bool parseNumber(const std::string& text, Number& number)
+{
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end;
+}
+
+/// The shortest text that parses to the same number.
+template <class Number> std::string toText(Number number)
+{
+    char buffer[32];
+    return std::string(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
+}
+
+/// An option of named values. `alias` is another word for one of them.
+template <class Names, class Get, class Set>
+SceneOption choice(const char* name, const char* help, const Names& names, Get get, Set set,
+                   std::pair<std::string, std::string> alias = {})
+{
+    std::string values, list;
+    for (const auto& each : names)
+    {
+        values += (values.empty() ? "" : "|") + std::string(each.name);
+        list += (list.empty() ? "" : ", ") + std::string(each.name);
+    }
+    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
+    {
+        const std::string& word = !alias.first.empty() && text == alias.first ? alias.second : text;
+        for (const auto& each : names)
+        {
+            if (word == each.name)
+            {
+                (scene.*set)(each.value);
+                return {};
+            }
+        }
+        return "'" + text + "' is none of " + list;
+    };
+    const auto format = [=](const ShadowedScene& scene) -> std::string
+    {
+        for (const auto& each : names)
+            if ((scene.*get)() == each.value)
+                return each.name;
+        return "?";
+    };
+    return {name, values, help, parse, format};
+}
+
+/// A whole number from `low` to `high`.
+template <class Get, class Set>
+SceneOption whole(const char* name, const char* help, unsigned int low, unsigned int high, Get get,
+                  Set set)
+{
+    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
+    {
+        unsigned int number = 0;
+        if (!parseNumber(text, number) || number < low || number > high)
+            return "'" + text + "' is not a whole number from " + toText(low) + " to " +
+                   toText(high);
+        (scene.*set)(number);
+        return {};
+    };
+    return {name, "<" + toText(low) + ".." + toText(high) + ">", help, parse,
+            [=](const ShadowedScene& scene) { return toText((scene.*get)()); }};
+}
+
+/// A finite number from 0 to `high`.
+template <class Get, class Set>
+SceneOption real(const char* name, const char* help, double high, Get get, Set set)
+{
+    const bool limited = std::isfinite(high);
+    const std::string values = limited ? "<0.." + toText(high) + ">" : "<number>";
+    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
+    {
+        double number = 0.0;
+        if (!parseNumber(text, number) || !std::isfinite(number) || number < 0.0 || number > high)
+            return "'" + text + "' is not a number " +
+                   (limited ? "from 0 to " + toText(high) : "of at least 0");
+        (scene.*set)(number);
+        return {};
+    };
+    return {name, values, help, parse,
+            [=](const ShadowedScene& scene) { return toText((scene.*get)()); }};
+}
+
+/// The number of a light, or all of them, which the scene knows as -1.
+SceneOption lightOption()
+{
+    const auto parse = [](ShadowedScene& scene, const std::string& text) -> std::string
+    {
+        int number = -1;
+        if (text != "all" && (!parseNumber(text, number) || number < 0))
+            return "'" + text + "' is neither all nor the number of a light, 0 or more";
+        scene.setLightShown(number);
+        return {};
+    };
+    const auto format = [](const ShadowedScene& scene)
+    { return scene.getLightShown() < 0 ? "all" : toText(scene.getLightShown()); };
+    return {"light", "all|<number>", "The one light that shines, or of which the mask is shown",
+            parse, format};
+}
+
+std::vector<SceneOption> makeOptions()
+{
+    using S = ShadowedScene;
+    const double infinity = std::numeric_limits<double>::infinity();
+    return {
+        choice("shadows",
+               "How lights cast shadows: silhouette volumes, right to the pixel; shadow maps, as "
+               "coarse as their texels; or not",
+               ShadowsNames, &S::getShadows, &S::setShadows),
+        choice("technique",
+               "Who finds the silhouettes: the fastest that there is, tessellation shaders, "
+               "geometry shaders or the CPU",
+               TechniqueNames, &S::getTechnique, &S::setTechnique),
+        choice(
+            "transparent",
+            "Which blended surfaces cast shadows: those with an alpha of at least 0.5, all, none",
+            TransparentCastersNames, &S::getTransparentCasters, &S::setTransparentCasters,
+            {"opaque", "all"}),
+        choice("headlight",
+               "Whether the viewer's headlight casts shadows, which in perspective show beside the "
+               "objects",
+               HeadlightNames, &S::getHeadlightShadow, &S::setHeadlightShadow),
+        whole("layers", "Surfaces behind each other up to which transparent ones receive shadows",
+              0, 64, &S::getTransparentLayers, &S::setTransparentLayers),
+        whole("mapsize", "Texels on a side of a shadow map", 16, 65536, &S::getMapSize,
+              &S::setMapSize),
+        whole("pcf", "Texels on a side of the square that a shadow map is filtered over; 1 is none",
+              1, 32, &S::getMapSamples, &S::setMapSamples),
+        whole("mapbudget", "MiB that the shadow maps of a view may take", 1, 1048576,
+              &S::getMapMegabytes, &S::setMapMegabytes),
+        choice("show",
+               "The picture; white where light reaches; the picture with its shadow volumes; "
+               "illuminance in false colours, or in lux for float pictures",
+               ShowNames, &S::getShow, &S::setShow),
+        lightOption(),
+        choice("keys", "Whether the group answers to keys of the viewer", SwitchNames, &S::getKeys,
+               &S::setKeys),
+        real("metres", "Metres that a unit of world coordinates stands for; 0 is unknown", infinity,
+             &S::getMetresPerUnit, &S::setMetresPerUnit),
+        real("maxlux", "Lux at the top of the false colours; 0 chooses", infinity,
+             &S::getIlluminanceMaximum, &S::setIlluminanceMaximum),
+        choice("lighting",
+               "Where light is evaluated: per pixel by any number of lights, per vertex by GL's "
+               "eight as the fixed function does, or nowhere; shadows need pixel",
+               LightingNames, &S::getLighting, &S::setLighting),
+        choice("lights",
+               "Which LightSources light a drawable: those whose GL_LIGHTn mode is on there, as in "
+               "OSG, or all of the view",
+               LightScopeNames, &S::getLightScope, &S::setLightScope),
+        real("tolerance",
+             "The most that all lights left out because of their distance may add to a pixel", 1.0,
+             &S::getLightTolerance, &S::setLightTolerance),
+    };
+}
+
+} // namespace
+
+const std::vector<SceneOption>& sceneOptions()
+{
+    static const std::vector<SceneOption> options = makeOptions();
+    return options;
+}
+
+const SceneOption* findSceneOption(const std::string& name)
+{
+    for (const SceneOption& option : sceneOptions())
+        if (option.name == name)
+            return &option;
+    return nullptr;
+}
+
+bool setSceneOption(ShadowedScene& scene, const std::string& name, const std::string& text,
+                    std::string& error)
+{
+    if (const SceneOption* option = findSceneOption(name))
+    {
+        const std::string cause = option->parse(scene, text);
+        if (!cause.empty())
+            error = "setting '" + name + "=" + text + "': " + cause;
+        return cause.empty();
+    }
+    error = "setting '" + name + "=" + text + "' is not known; there are ";
+    for (const SceneOption& option : sceneOptions())
+        error +=
+            (&option == &sceneOptions().front() ? "" : ", ") + option.name + "=" + option.values;
+    return false;
+}
+
+} // namespace osgShadowVolume
