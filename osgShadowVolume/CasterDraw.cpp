@@ -50,6 +50,11 @@ void CasterDraw::run(ShadowPasses::Count count)
 {
     if (_placed.empty())
         return;
+    // What lies before a surface and what lies behind it add up to 0: both ways count into one
+    // counter, so z-pass counts the other way round.
+    if (!zFail)
+        for (Placed& placed : _placed)
+            placed.handedness = -placed.handedness;
     const bool onCpu = _view.technique == Technique::CPU;
     drawPass(onCpu                                  ? Pass::TriangleSides
              : _view.technique == Technique::TESS ? Pass::TessSides
