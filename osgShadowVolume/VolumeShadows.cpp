@@ -2,6 +2,7 @@
 #include <osgShadowVolume/VolumeShadows.h>
 
 #include <osgShadowVolume/CasterDraw.h>
+#include <osgShadowVolume/EnumNames.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
@@ -37,6 +38,14 @@ osg::Vec4 colorOf(int index)
         return 1.0f - std::max(0.0f, std::min({k, 4.0f - k, 1.0f}));
     };
     return {channel(5.0f), channel(3.0f), channel(1.0f), 0.12f};
+}
+
+std::string nameOf(Technique technique)
+{
+    for (const auto& [name, value] : TechniqueNames)
+        if (value == technique)
+            return name;
+    return {};
 }
 
 bool isOpaque(const SurfaceItem& item)
@@ -102,8 +111,9 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     if (!any)
         return;
     bool hasTransparent = false;
-    frame.forEachItem([&](const SurfaceItem& item)
-                      { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
+    frame.forEachItem(
+        [&](const SurfaceItem& item)
+        { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     TargetLayout layout;
@@ -151,8 +161,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     {
         frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
                            [&](const SurfaceItem& item) {
-                               return isReceiver(item) && isOpaque(item) &&
-                                      hasHoles(item) == holes;
+                               return isReceiver(item) && isOpaque(item) && hasHoles(item) == holes;
                            });
     };
     draw(Pass::Depth, false);
@@ -245,7 +254,7 @@ const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
 void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
 {
     const LightDecision& decision = getDecision(light);
-    const CasterDraw::View view{renderInfo, _resources,       _technique,
+    const CasterDraw::View view{renderInfo, _resources,      _technique,
                                 _tier,      getProjection(), _frameNumber};
     CasterDraw draw(view, getLights()[light]);
     std::size_t zFail = 0;
@@ -262,7 +271,8 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
     _drawCalls += draw.getDrawCalls();
     const std::size_t casters = decision.casters.size();
     _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
-                           ", z-fail for " + std::to_string(zFail);
+                           ", z-fail for " + std::to_string(zFail) +
+                           ", technique=" + nameOf(_technique);
 }
 
 std::string VolumeShadows::makeSource(bool transparent) const
@@ -309,7 +319,7 @@ void VolumeShadows::showVolumes(osg::RenderInfo& renderInfo)
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
                        osg::StateAttribute::OVERRIDE);
     state.pushStateSet(base);
-    const CasterDraw::View view{renderInfo, _resources,       _technique,
+    const CasterDraw::View view{renderInfo, _resources,      _technique,
                                 _tier,      getProjection(), _frameNumber};
     for (std::size_t light = 0; light < getLights().size(); ++light)
     {
