@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/LightShadows.h>
 
-#include <osgShadowVolume/LightScreen.h>
-#include <osgShadowVolume/ShadowHull.h>
-
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace osgShadowVolume
 {
@@ -28,6 +27,24 @@ glm::dvec3 toGlm(const osg::Vec3d& v)
     return {v.x(), v.y(), v.z()};
 }
 
+/// How far the light shines until it is past all corners; infinity for an unknown extent.
+double reachPast(const Hexahedron& corners, const EyeLight& light)
+{
+    double farthest = 0.0, deepest = 0.0;
+    for (const glm::dvec3& corner : corners)
+    {
+        const glm::dvec3 way = corner - light.position;
+        if (!std::isfinite(glm::length(way)))
+            return std::numeric_limits<double>::infinity();
+        farthest = std::max(farthest, glm::length(way));
+        deepest = std::max(deepest, glm::dot(way, light.spotDirection));
+    }
+    // The plane that cuts a cone behind all corners is as far away at its rim.
+    if (light.type == EyeLight::Spot && light.spotCutoffDegrees < 89.0f)
+        farthest = std::min(farthest, deepest / std::cos(glm::radians(light.spotCutoffDegrees)));
+    return farthest * (1.0 + 1e-6);
+}
+
 } // namespace
 
 LightShadows::~LightShadows() = default;
@@ -43,16 +60,10 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
         _isDynamic = _isDynamic || caster.dynamic;
 }
 
-void LightShadows::plan(const glm::dvec4& viewport, const osgMultiRender::SurfaceFrame& frame,
-                        const std::vector<EyeLight>& lights)
+void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
+                        const std::vector<EyeLight>& lights, const std::vector<double>& reaches)
 {
     _lights = &lights;
-    bool unbounded = false;
-    const osg::BoundingBoxd box = frame.getBounds(osg::Matrixd(), unbounded);
-    Hexahedron receivers = boxOf(toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)),
-                                 glm::dmat4(1.0));
-    if (unbounded || !box.valid())
-        receivers = boxOf(glm::dvec3(1.0), glm::dvec3(-1.0), glm::dmat4(1.0)); // unknown
     const glm::dmat4 projection = toGlm(*_projection);
     const Hexahedron frustum = frustumOf(projection), nearRectangle = nearRectangleOf(projection);
     std::vector<Hexahedron> boxes;
@@ -60,15 +71,26 @@ void LightShadows::plan(const glm::dvec4& viewport, const osgMultiRender::Surfac
         boxes.push_back(boxOf(toGlm(osg::Vec3d(caster.box._min)),
                               toGlm(osg::Vec3d(caster.box._max)), toGlm(*caster.modelview)));
     int index = 0;
-    for (const EyeLight& light : lights)
+    for (std::size_t number = 0; number < lights.size(); ++number)
     {
+        const EyeLight& light = lights[number];
         LightDecision decision;
+        // A mask shows whether a light is taken away even where there is none of it.
+        const double reach = _settings.show == Show::MASK
+                                 ? std::numeric_limits<double>::infinity()
+                                 : std::min({reaches[number], reachPast(receivers, light),
+                                             reachPast(frustum, light)});
+        const std::optional<ScreenBounds> bounds =
+            screenBounds(sphereOf(light, reach), projection, viewport);
         if (!light.castsShadow)
             decision.reason = "it says castShadow=0";
         else if (light.isHeadlight && !_settings.headlightShadow)
             decision.reason = "the headlight casts no shadow (headlight=noshadow)";
+        else if (!bounds)
+            decision.reason = "it lights nothing on the screen";
         else
         {
+            decision.bounds = *bounds;
             const glm::dvec4 l(light.position, light.isDirectional() ? 0.0 : 1.0);
             const ShadowHull toReceivers(receivers, l), toFrustum(frustum, l),
                 toNear(nearRectangle, l);
@@ -78,9 +100,9 @@ void LightShadows::plan(const glm::dvec4& viewport, const osgMultiRender::Surfac
                     decision.casters.push_back(i);
                     decision.needsZFail.push_back(toNear.mayTouch(boxes[i]));
                 }
-            const bool castsPastNear = std::find(decision.needsZFail.begin(),
-                                                 decision.needsZFail.end(), true) !=
-                                       decision.needsZFail.end();
+            const bool castsPastNear =
+                std::find(decision.needsZFail.begin(), decision.needsZFail.end(), true) !=
+                decision.needsZFail.end();
             if (decision.casters.empty())
                 decision.reason = "no caster between it and what is in view";
             else if (!castsPastNear && hidesItsShadows(light, projection, viewport))
@@ -95,8 +117,7 @@ void LightShadows::plan(const glm::dvec4& viewport, const osgMultiRender::Surfac
 bool LightShadows::receives(const osgUtil::RenderLeaf& leaf,
                             const osgMultiRender::SurfaceState& state) const
 {
-    return leaf._projection == _projection &&
-           state.isOn(osgMultiRender::SurfaceState::DepthTest) &&
+    return leaf._projection == _projection && state.isOn(osgMultiRender::SurfaceState::DepthTest) &&
            (state.isOpaque() || receivesOnTransparent());
 }
 
