@@ -46,24 +46,29 @@ void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
                        determinant < 0.0 ? -1.0f : 1.0f});
 }
 
-void CasterDraw::run(bool zFail)
+void CasterDraw::run(ShadowPasses::Count count)
 {
     if (_placed.empty())
         return;
+    // What lies before a surface and what lies behind it add up to 0: both ways count into one
+    // counter, so z-pass counts the other way round.
+    if (!zFail)
+        for (Placed& placed : _placed)
+            placed.handedness = -placed.handedness;
     const bool onCpu = _view.technique == Technique::CPU;
     drawPass(onCpu                                  ? Pass::TriangleSides
              : _view.technique == Technique::TESS ? Pass::TessSides
                                                     : Pass::GeometrySides,
-             zFail);
-    if (zFail)
-        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, zFail);
+             count);
+    if (count == ShadowPasses::Count::ZFail)
+        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, count);
     _placed.clear();
 }
 
-void CasterDraw::drawPass(Pass pass, bool zFail)
+void CasterDraw::drawPass(Pass pass, ShadowPasses::Count count)
 {
     osg::State& state = *_view.renderInfo.getState();
-    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, zFail));
+    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, count));
     state.apply();
     state.applyProjectionMatrix(_view.projection.get());
     if (state.getLastAppliedProgramObject())
@@ -78,12 +83,16 @@ void CasterDraw::drawPass(Pass pass, bool zFail)
 void CasterDraw::place(const Placed& placed)
 {
     static const unsigned int light = osg::Uniform::getNameID("osgsv_localLight");
+    static const unsigned int color = osg::Uniform::getNameID("osgsv_color");
+    static const unsigned int rest = osg::Uniform::getNameID("osgsv_lightRest");
     osg::State& state = *_view.renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform4fv(program.getUniformLocation(light), 1,
-                                                 &placed.light[0]);
+    const auto* gl = state.get<osg::GLExtensions>();
+    gl->glUniform4fv(program.getUniformLocation(light), 1, &placed.light.light[0]);
+    gl->glUniform3fv(program.getUniformLocation(rest), 1, &placed.light.rest[0]);
     setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
     setUniform(state, "osgsv_handedness", placed.handedness);
+    gl->glUniform4fv(program.getUniformLocation(color), 1, _color.ptr());
     state.applyModelViewMatrix(placed.modelview.get());
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();

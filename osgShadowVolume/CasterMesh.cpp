@@ -81,6 +81,50 @@ struct AddIndexed
     }
 };
 
+/// Triangles of primitives, with the quads of strips divided as Mesa draws them: along the diagonal
+/// from the first corner to the fourth, not along the other one, which OSG's functor takes.
+class ReadTriangles : public osg::TriangleIndexFunctor<AddIndexed>
+{
+public:
+    void drawArrays(GLenum mode, GLint first, GLsizei count) override
+    {
+        if (mode == GL_QUAD_STRIP)
+            readStrip(count, [=](GLsizei i) { return unsigned(first + i); });
+        else
+            osg::TriangleIndexFunctor<AddIndexed>::drawArrays(mode, first, count);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLubyte* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLushort* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLuint* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+
+private:
+    template <class T> void readElements(GLenum mode, GLsizei count, const T* indices)
+    {
+        if (mode == GL_QUAD_STRIP)
+            readStrip(count, [=](GLsizei i) { return unsigned(indices[i]); });
+        else
+            osg::TriangleIndexFunctor<AddIndexed>::drawElements(mode, count, indices);
+    }
+
+    template <class At> void readStrip(GLsizei count, const At& at)
+    {
+        for (GLsizei i = 0; i + 3 < count; i += 2)
+        {
+            (*this)(at(i), at(i + 1), at(i + 3));
+            (*this)(at(i), at(i + 3), at(i + 2));
+        }
+    }
+};
+
 struct AddTriangles
 {
     EdgeMeshBuilder* builder = nullptr;
@@ -118,7 +162,7 @@ std::size_t addDrawable(const osg::Drawable& drawable, EdgeMeshBuilder& builder)
         return 0;
     Positions positions;
     array->accept(positions);
-    osg::TriangleIndexFunctor<AddIndexed> functor;
+    ReadTriangles functor;
     functor.builder = &builder;
     functor.points = &positions.points;
     for (unsigned int i = 0; i != geometry->getNumPrimitiveSets(); ++i)

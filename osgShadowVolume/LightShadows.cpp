@@ -55,6 +55,7 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
     CasterCollector collector(visitor, _settings.transparentCasters);
     collector.collect(group);
     _casters = std::move(collector.getCasters());
+    _shadowless = std::move(collector.getShadowless());
     _notCasting = collector.getLeftOut();
     for (const Caster& caster : _casters)
         _isDynamic = _isDynamic || caster.dynamic;

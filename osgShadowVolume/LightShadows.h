@@ -10,6 +10,7 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <map>
+#include <set>
 #include <memory>
 #include <string>
 #include <utility>
@@ -54,6 +55,8 @@ public:
               const std::vector<EyeLight>& lights, const std::vector<double>& reaches);
     /// What was decided on a light; indices are those of plan().
     const LightDecision& getDecision(std::size_t light) const { return _decisions[light]; }
+    /// Whether the LightSource of a light in the group says castShadow=0.
+    bool isShadowless(const osg::Light& light) const { return _shadowless.count(&light) != 0; }
     /// Whether a leaf can be in shadow: those of other projections than the group's (a head-up
     /// display in the model) and those without depth test keep their light.
     bool receives(const osgUtil::RenderLeaf& leaf, const osgMultiRender::SurfaceState& state) const;
@@ -95,6 +98,7 @@ private:
     const ShadowSettings _settings;
     bool _isDynamic = false;
     std::vector<Caster> _casters;
+    std::set<const osg::Light*> _shadowless;
     std::map<std::string, unsigned int> _notCasting; ///< By reason, for the plan.
     osg::ref_ptr<osg::RefMatrix> _projection;
     const std::vector<EyeLight>* _lights = nullptr;

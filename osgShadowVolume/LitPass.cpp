@@ -128,6 +128,8 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
         [&](const osg::Light& light, const osg::Matrix* matrix)
         {
             EyeLight eye = toEye(light, matrix);
+            if (_shadows && _shadows->isShadowless(light))
+                eye.castsShadow = false;
             if (measuresLight(_settings) && !measure(eye, light, frame))
                 return;
             if (_lightScope == LitScene::LightScope::MODES)

@@ -28,6 +28,18 @@ void drawScreen(osg::State& state)
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+/// Hues that are far apart for neighbours.
+osg::Vec4 colorOf(int index)
+{
+    const float hue = 6.0f * std::fmod(0.13f + 0.618034f * float(index), 1.0f);
+    const auto channel = [hue](float offset)
+    {
+        const float k = std::fmod(offset + hue, 6.0f);
+        return 1.0f - std::max(0.0f, std::min({k, 4.0f - k, 1.0f}));
+    };
+    return {channel(5.0f), channel(3.0f), channel(1.0f), 0.12f};
+}
+
 bool isOpaque(const SurfaceItem& item)
 {
     return item.state->isOpaque();
@@ -248,7 +260,7 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
                 draw.add(getMesh(decision.casters[i]), getCasters()[decision.casters[i]].modelview);
                 zFail += failing;
             }
-        draw.run(failing);
+        draw.run(failing ? ShadowPasses::Count::ZFail : ShadowPasses::Count::ZPass);
     }
     _drawCalls += draw.getDrawCalls();
     const std::size_t casters = decision.casters.size();
@@ -294,8 +306,35 @@ std::uint32_t VolumeShadows::getVariantBits() const
     return bits;
 }
 
-void VolumeShadows::drawn(osg::RenderInfo&)
+void VolumeShadows::showVolumes(osg::RenderInfo& renderInfo)
 {
+    osg::State& state = *renderInfo.getState();
+    GLint viewport[4];
+    glGetIntegerv(GL_VIEWPORT, viewport);
+    osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+    base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
+                       osg::StateAttribute::OVERRIDE);
+    state.pushStateSet(base);
+    const CasterDraw::View view{renderInfo, _resources,       _technique,
+                                _tier,      getProjection(), _frameNumber};
+    for (std::size_t light = 0; light < getLights().size(); ++light)
+    {
+        const LightDecision& decision = getDecision(light);
+        if (decision.index < 0 || _descriptions[light].empty())
+            continue;
+        CasterDraw draw(view, getLights()[light]);
+        draw.setColor(colorOf(decision.index));
+        for (std::uint32_t caster : decision.casters)
+            draw.add(getMesh(caster), getCasters()[caster].modelview);
+        draw.run(ShadowPasses::Count::Shown);
+    }
+    state.popStateSet();
+}
+
+void VolumeShadows::drawn(osg::RenderInfo& renderInfo)
+{
+    if (_targets && getSettings().show == Show::VOLUMES)
+        showVolumes(renderInfo);
     if (_targets)
         _resources.targets.release(_contextID, _targets);
     _targets = nullptr;

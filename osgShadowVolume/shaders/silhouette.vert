@@ -1,6 +1,7 @@
 // A vertex of a volume whose silhouette was found on the CPU; w = 0 says that it is extruded.
 
 uniform vec4 osgsv_localLight;
+uniform vec3 osgsv_lightRest;
 uniform float osgsv_handedness;
 uniform float osgsv_weight; // of what is drawn: Silhouette::Sides, 1 for caps
 
@@ -14,5 +15,7 @@ void main()
         gl_Position = ftransform();
     else
         gl_Position = gl_ModelViewProjectionMatrix *
-                      vec4(gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz, 0.0);
+                      vec4((gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) -
+                               osgsv_lightRest,
+                           0.0);
 }

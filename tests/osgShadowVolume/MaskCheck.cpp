@@ -176,6 +176,7 @@ void MaskTable::print() const
             sum.wrongBand += found->second.wrongBand;
             sum.wrongGrazing += found->second.wrongGrazing;
             sum.withinQuantum += found->second.withinQuantum;
+            sum.withinRounding += found->second.withinRounding;
             sum.leaks += found->second.leaks;
         }
         std::printf("\n");
@@ -183,8 +184,9 @@ void MaskTable::print() const
     for (const auto& [way, sum] : sums)
         std::printf(
             "%s: of %u pixels wrong in the band %u, at grazing light %u, within a quantum of "
-            "depth %u, leaks %u\n",
-            way.c_str(), sum.object, sum.wrongBand, sum.wrongGrazing, sum.withinQuantum, sum.leaks);
+            "depth %u, of the light %u, leaks %u\n",
+            way.c_str(), sum.object, sum.wrongBand, sum.wrongGrazing, sum.withinQuantum,
+            sum.withinRounding, sum.leaks);
 }
 
 bool isLongRun()

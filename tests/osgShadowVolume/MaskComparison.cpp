@@ -68,11 +68,25 @@ bool isEdgeNear(const ShadowTruth& truth, const Light& light, const Sample& cent
     return false;
 }
 
+/// Whether the light lies so near to planes of casters that its float position may have decided.
+bool isWithinLightRounding(const ShadowTruth& truth, Light light, double x, double y, Seen seen)
+{
+    for (int side : {-1, 0, 1})
+    {
+        light.sideIfNear = side;
+        if (truth.sample(light, x, y).seen == seen)
+            return true;
+    }
+    return false;
+}
+
 } // namespace
 
 double MaskDifference::getErrorShare() const
 {
-    return object ? double(wrongBand + wrongGrazing + withinQuantum + leaks) / object : 0.0;
+    return object
+               ? double(wrongBand + wrongGrazing + withinQuantum + withinRounding + leaks) / object
+               : 0.0;
 }
 
 std::vector<Zone> zonesOf(const std::vector<Sample>& samples, int width, int height)
@@ -144,6 +158,8 @@ MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, con
                 ++result.wrongBand;
             else if (questions && truth.isWithinDepthQuantum(light, ndcX, ndcY, seen))
                 ++result.withinQuantum;
+            else if (isWithinLightRounding(truth, light, ndcX, ndcY, seen))
+                ++result.withinRounding;
             else
             {
                 ++result.leaks;

@@ -75,6 +75,7 @@ TEST(ShadowSoupGLTest, randomScenesHaveNoLeak)
             sum.wrongBand += difference.wrongBand;
             sum.wrongGrazing += difference.wrongGrazing;
             sum.withinQuantum += difference.withinQuantum;
+            sum.withinRounding += difference.withinRounding;
             sum.leaks += difference.leaks;
         }
         if (!result.getLeaks())
@@ -87,9 +88,9 @@ TEST(ShadowSoupGLTest, randomScenesHaveNoLeak)
     for (const auto& [way, sum] : sums)
     {
         std::printf("%s: of %u pixels, %u shadowed and %u in the band, wrong in the band %u, at "
-                    "grazing light %u, within a quantum of depth %u, leaks %u\n",
+                    "grazing light %u, within a quantum of depth %u, of the light %u, leaks %u\n",
                     way.c_str(), sum.object, sum.shadowed, sum.band, sum.wrongBand,
-                    sum.wrongGrazing, sum.withinQuantum, sum.leaks);
+                    sum.wrongGrazing, sum.withinQuantum, sum.withinRounding, sum.leaks);
         EXPECT_GT(sum.shadowed, sum.object / 20) << "nothing would be seen of a shadow";
     }
 }

@@ -8,6 +8,7 @@
 #include <osg/NodeVisitor>
 #include <osg/TriangleFunctor>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -162,12 +163,30 @@ int sideOf(const Triangle& triangle, const Frame& frame, const Light& light)
         edge[1][k] = triangle.local[2][k] - a;
         edge[2][k] = l[k] - a * Exact(l.w());
     }
-    Exact determinant = 0;
+    Exact determinant = 0, size = 0;
     for (int k = 0; k < 3; ++k)
     {
         const int m = (k + 1) % 3, n = (k + 2) % 3;
-        determinant += edge[2][k] * (edge[0][m] * edge[1][n] - edge[0][n] * edge[1][m]);
+        const Exact left = edge[2][k] * edge[0][m] * edge[1][n];
+        const Exact right = edge[2][k] * edge[0][n] * edge[1][m];
+        determinant += left - right;
+        size += (left < 0 ? -left : left) + (right < 0 ? -right : right);
     }
+    // The sum of the roundings of differences, products and sums of floats, 2^-24 each, and of the
+    // light's own, which the length of its vector allows for.
+    Exact reach = 0;
+    for (int k = 0; k < 3; ++k)
+        reach = std::max({reach, Exact(std::abs(l[k])), Exact(std::abs(triangle.local[0][k]))});
+    Exact area = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+        const int m = (k + 1) % 3, n = (k + 2) % 3;
+        const Exact normal = edge[0][m] * edge[1][n] - edge[0][n] * edge[1][m];
+        area += normal < 0 ? -normal : normal;
+    }
+    const Exact limit = 1e-6 * size + 2e-7 * reach * area;
+    if (light.sideIfNear != -2 && determinant <= limit && -determinant <= limit)
+        return light.sideIfNear * frame.handedness;
     const int local = determinant > 0 ? 1 : determinant < 0 ? -1 : 0;
     return local * frame.handedness;
 }

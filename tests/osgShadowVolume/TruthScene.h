@@ -42,6 +42,9 @@ struct Light
     osg::Vec4d position;     ///< World; w is 0 for one at infinity.
     osg::Vec3d direction;    ///< World; of a spot, unit.
     double cosCutoff = -2.0; ///< -2 for no cone.
+    /// The side of planes that the light is on, or off by a rounding of float; -2 for the exact
+    /// one.
+    int sideIfNear = -2;
 };
 
 /// Triangles of all drawables that triangles can be asked from, by the active children of the
@@ -61,7 +64,7 @@ Light makeLight(const osg::Light& light, const osg::Matrixd& toWorld);
 
 /// On which side of the plane of the triangle the light lies, from where it is counterclockwise: 1,
 /// from where it is clockwise: -1, in the plane: 0. Exact for the light as a caster knows it, which
-/// is in the caster's frame and rounded to float.
+/// is in the caster's frame and rounded to float; see Light::sideIfNear.
 int sideOf(const Triangle& triangle, const Frame& frame, const Light& light);
 
 } // namespace truth
