@@ -52,7 +52,7 @@ void CasterDraw::run(ShadowPasses::Count count)
         return;
     // What lies before a surface and what lies behind it add up to 0: both ways count into one
     // counter, so z-pass counts the other way round.
-    if (!zFail)
+    if (count == ShadowPasses::Count::ZPass)
         for (Placed& placed : _placed)
             placed.handedness = -placed.handedness;
     const bool onCpu = _view.technique == Technique::CPU;
