@@ -45,6 +45,21 @@ double reachPast(const Hexahedron& corners, const EyeLight& light)
     return farthest * (1.0 + 1e-6);
 }
 
+EyeSphere sphereAround(const Hexahedron& corners)
+{
+    EyeSphere sphere;
+    for (const glm::dvec3& corner : corners)
+        sphere.center += corner / 8.0;
+    for (const glm::dvec3& corner : corners)
+    {
+        const double distance = glm::length(corner - sphere.center) * (1.0 + 1e-6);
+        if (!std::isfinite(distance))
+            return {glm::dvec3(0.0), std::numeric_limits<double>::infinity()};
+        sphere.radius = std::max(sphere.radius, distance);
+    }
+    return sphere;
+}
+
 } // namespace
 
 LightShadows::~LightShadows() = default;
@@ -62,7 +77,7 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
 }
 
 void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
-                        const std::vector<EyeLight>& lights, const std::vector<double>& reaches)
+                        const std::vector<EyeLight>& lights, const std::vector<double>& limits)
 {
     _lights = &lights;
     const glm::dmat4 projection = toGlm(*_projection);
@@ -71,15 +86,19 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
     for (const Caster& caster : _casters)
         boxes.push_back(boxOf(toGlm(osg::Vec3d(caster.box._min)),
                               toGlm(osg::Vec3d(caster.box._max)), toGlm(*caster.modelview)));
+    std::vector<EyeSphere> spheres;
+    for (const Hexahedron& box : boxes)
+        spheres.push_back(sphereAround(box));
+    // A mask shows whether a light is taken away even where there is none of it.
+    const bool everywhere = _settings.show == Show::MASK;
     int index = 0;
     for (std::size_t number = 0; number < lights.size(); ++number)
     {
         const EyeLight& light = lights[number];
         LightDecision decision;
-        // A mask shows whether a light is taken away even where there is none of it.
         const double reach = _settings.show == Show::MASK
                                  ? std::numeric_limits<double>::infinity()
-                                 : std::min({reaches[number], reachPast(receivers, light),
+                                 : std::min({limits[number], reachPast(receivers, light),
                                              reachPast(frustum, light)});
         const std::optional<ScreenBounds> bounds =
             screenBounds(sphereOf(light, reach), projection, viewport);
@@ -96,7 +115,9 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
             const ShadowHull toReceivers(receivers, l), toFrustum(frustum, l),
                 toNear(nearRectangle, l);
             for (std::uint32_t i = 0; i < boxes.size(); ++i)
-                if (toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
+                // Where light does not come, none is taken away.
+                if ((everywhere || reaches(light, reach, spheres[i].center, spheres[i].radius)) &&
+                    toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
                 {
                     decision.casters.push_back(i);
                     decision.needsZFail.push_back(toNear.mayTouch(boxes[i]));

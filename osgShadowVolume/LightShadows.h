@@ -10,8 +10,8 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <map>
-#include <set>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,10 +49,10 @@ public:
     /// Before anything else: what the context can do.
     virtual void begin(osg::RenderInfo& renderInfo) = 0;
     /// Decides on each light. `viewport` in pixels; `receivers` holds all that is in view, in eye
-    /// coordinates. Beyond its reach a light need not cast shadows. The lights stay where they are
+    /// coordinates. Beyond its limit a light need not cast shadows. The lights stay where they are
     /// until the frame is drawn.
     void plan(const glm::dvec4& viewport, const Hexahedron& receivers,
-              const std::vector<EyeLight>& lights, const std::vector<double>& reaches);
+              const std::vector<EyeLight>& lights, const std::vector<double>& limits);
     /// What was decided on a light; indices are those of plan().
     const LightDecision& getDecision(std::size_t light) const { return _decisions[light]; }
     /// Whether the LightSource of a light in the group says castShadow=0.

@@ -3,7 +3,7 @@
 // plant.
 //
 //   osgShadowVolume.ShadowLightsBenchmark [--size WxH] [--rounds N] [--most N] [--objects N]
-//                                         [--angle degrees] [--csv file]
+//                                         [--angle degrees] [--csv file] [--picture file]
 //
 // "anew" is the plain way: one cull and one draw a light, each of a scene with this light alone.
 // Its frames are summed, less what an empty frame takes for all but one of them; adding them up in
@@ -16,6 +16,7 @@
 
 #include <osg/ArgumentParser>
 #include <osg/LightSource>
+#include <osgDB/WriteFile>
 
 #include <cmath>
 #include <cstdio>
@@ -67,6 +68,8 @@ int main(int argc, char** argv)
     arguments.read("--objects", objects);
     arguments.read("--angle", angle);
     arguments.read("--csv", csv);
+    std::string picture;
+    arguments.read("--picture", picture);
     if (!parseSize(size, width, height))
         return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
     FrameTimer timer(width, height);
@@ -90,6 +93,7 @@ int main(int argc, char** argv)
         candidate.lights = lights;
         candidate.scene = new ShadowedScene;
         candidate.scene->setLightScope(ShadowedScene::LightScope::ALL);
+        candidate.scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
         candidate.scene->addChild(plant);
         addLights(*candidate.scene, lights, 1.3 * radius, angle);
         candidates.push_back(candidate);
@@ -130,5 +134,8 @@ int main(int argc, char** argv)
                    counts["shadows.drawCalls"]});
     }
     table.print();
+    if (!picture.empty())
+        osgDB::writeImageFile(
+            *timer.getViewer().render(candidates.back().scene, camera, width, height), picture);
     return table.write(csv) ? 0 : 1;
 }
