@@ -46,6 +46,16 @@ void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
                        determinant < 0.0 ? -1.0f : 1.0f});
 }
 
+float CasterDraw::endOf(const MeshLight& light) const
+{
+    // All rays of an orthographic view meet at one point at infinity, so that a cap there covers
+    // all of the picture or nothing and is not drawn. So there volumes end, 2^24 times as far
+    // from a positional light as their caster.
+    const osg::Matrixd& p = *_view.projection;
+    const bool isPerspective = p(0, 3) != 0.0 || p(1, 3) != 0.0 || p(2, 3) != 0.0;
+    return isPerspective ? 0.0f : std::ldexp(light.light.w, -24);
+}
+
 void CasterDraw::run(ShadowPasses::Count count)
 {
     if (_placed.empty())
@@ -92,6 +102,7 @@ void CasterDraw::place(const Placed& placed)
     gl->glUniform3fv(program.getUniformLocation(rest), 1, &placed.light.rest[0]);
     setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
     setUniform(state, "osgsv_handedness", placed.handedness);
+    setUniform(state, "osgsv_end", endOf(placed.light));
     gl->glUniform4fv(program.getUniformLocation(color), 1, _color.ptr());
     state.applyModelViewMatrix(placed.modelview.get());
     if (state.getUseModelViewAndProjectionUniforms())

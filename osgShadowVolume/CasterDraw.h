@@ -48,6 +48,7 @@ private:
         float handedness; ///< Sign of the modelview's determinant.
     };
 
+    float endOf(const MeshLight& light) const;
     void drawPass(ShadowPasses::Pass pass, ShadowPasses::Count count);
     void place(const Placed& placed);
     void drawParts(ShadowPasses::Pass pass, const Placed& placed);

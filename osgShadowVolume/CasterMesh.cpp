@@ -3,6 +3,7 @@
 
 #include <osgShadowVolume/EdgeMeshBuilder.h>
 
+#include <osg/Notify>
 #include <osg/PatchParameter>
 #include <osg/State>
 #include <osg/TriangleFunctor>
@@ -10,6 +11,8 @@
 #include <osgText/TextBase>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <cstring>
 #include <type_traits>
 
@@ -243,6 +246,30 @@ NoCaster whyNoCaster(const osg::Drawable& drawable)
 
 CasterMesh::~CasterMesh() = default;
 
+namespace
+{
+
+/// Says once what is wrong with Drawables of a name: a mesh that changes is built again and again.
+void warnOnce(const CasterSource& source, std::size_t triangles, const char* reason)
+{
+    static std::mutex mutex;
+    static std::set<std::string> said;
+    if (!triangles)
+        return;
+    std::string name;
+    for (const auto& drawable : source)
+        if (name.empty())
+            name = drawable->getName();
+    name = name.empty() ? "a drawable" : "drawable '" + name + "'";
+    std::lock_guard<std::mutex> lock(mutex);
+    if (said.size() < 100 && said.insert(name + reason).second)
+        OSG_WARN << "osgShadowVolume: " << name << ": " << triangles << " of its triangles "
+                 << (triangles == 1 ? "casts" : "cast") << " no shadow, because " << reason
+                 << std::endl;
+}
+
+} // namespace
+
 void CasterMesh::build(const CasterSource& source)
 {
     std::call_once(_built,
@@ -254,6 +281,9 @@ void CasterMesh::build(const CasterSource& source)
                        _edges = builder.build();
                        for (const glm::vec3& v : _edges.vertices)
                            _box.expandBy(v.x, v.y, v.z);
+                       warnOnce(source, _edges.notFinite,
+                                "a coordinate is infinite or not a number");
+                       warnOnce(source, _badIndices, "an index is beyond the vertices");
                    });
 }
 

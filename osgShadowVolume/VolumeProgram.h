@@ -12,7 +12,7 @@ namespace osgShadowVolume
 
 /// The programs that draw shadow volumes into a counter, an R32F target with additive blending.
 ///
-/// Uniforms: `osgsv_localLight` and `osgsv_lightRest` (MeshLight), `osgsv_handedness` (1, or -1 where the modelview's
+/// Uniforms: `osgsv_localLight` and `osgsv_lightRest` (MeshLight), `osgsv_end` (w of extrusions), `osgsv_handedness` (1, or -1 where the modelview's
 /// determinant is negative); where the GPU judges `osgsv_meshScale` (EdgeMesh::scale); SILHOUETTE
 /// has `osgsv_weight` instead. The modelview and projection matrices are GL's own.
 enum class VolumePart

@@ -2,6 +2,7 @@
 
 uniform vec4 osgsv_localLight;
 uniform vec3 osgsv_lightRest;
+uniform float osgsv_end;    // w of extrusions: 0 at infinity
 uniform float osgsv_handedness;
 uniform float osgsv_weight; // of what is drawn: Silhouette::Sides, 1 for caps
 
@@ -14,8 +15,9 @@ void main()
     if (gl_Vertex.w != 0.0)
         gl_Position = ftransform();
     else
-        gl_Position = gl_ModelViewProjectionMatrix *
-                      vec4((gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) -
-                               osgsv_lightRest,
-                           0.0);
+    {
+        vec3 away = (gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) - osgsv_lightRest;
+        gl_Position =
+            gl_ModelViewProjectionMatrix * vec4(away + gl_Vertex.xyz * osgsv_end, osgsv_end);
+    }
 }

@@ -3,6 +3,7 @@
 
 uniform vec4 osgsv_localLight;
 uniform vec3 osgsv_lightRest;
+uniform float osgsv_end; // w of extrusions: 0 at infinity
 
 invariant gl_Position;
 flat out int osgsv_index;
@@ -16,6 +17,7 @@ void main()
     gl_Position = ftransform();
     precise vec3 away =
         (gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) - osgsv_lightRest;
-    precise vec4 extruded = gl_ModelViewProjectionMatrix * vec4(away, 0.0);
+    precise vec4 extruded =
+        gl_ModelViewProjectionMatrix * vec4(away + gl_Vertex.xyz * osgsv_end, osgsv_end);
     osgsv_extruded = extruded;
 }
