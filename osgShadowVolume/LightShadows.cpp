@@ -76,19 +76,34 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
         _isDynamic = _isDynamic || caster.dynamic;
 }
 
+const char* LightShadows::whyNoShadow(const EyeLight& light) const
+{
+    if (!light.castsShadow)
+        return "it says castShadow=0";
+    if (light.isHeadlight && !_settings.headlightShadow)
+        return "the headlight casts no shadow (headlight=noshadow)";
+    return nullptr;
+}
+
 void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                         const std::vector<EyeLight>& lights, const std::vector<double>& limits)
 {
     _lights = &lights;
     const glm::dmat4 projection = toGlm(*_projection);
     const Hexahedron frustum = frustumOf(projection), nearRectangle = nearRectangleOf(projection);
+    // Casters may be many, and a headlight alone asks for none.
+    const bool anyCasts =
+        std::any_of(lights.begin(), lights.end(),
+                    [this](const EyeLight& light) { return whyNoShadow(light) == nullptr; });
     std::vector<Hexahedron> boxes;
-    for (const Caster& caster : _casters)
-        boxes.push_back(boxOf(toGlm(osg::Vec3d(caster.box._min)),
-                              toGlm(osg::Vec3d(caster.box._max)), toGlm(*caster.modelview)));
     std::vector<EyeSphere> spheres;
-    for (const Hexahedron& box : boxes)
-        spheres.push_back(sphereAround(box));
+    for (std::size_t i = 0; anyCasts && i < _casters.size(); ++i)
+    {
+        boxes.push_back(boxOf(toGlm(osg::Vec3d(_casters[i].box._min)),
+                              toGlm(osg::Vec3d(_casters[i].box._max)),
+                              toGlm(*_casters[i].modelview)));
+        spheres.push_back(sphereAround(boxes.back()));
+    }
     // A mask shows whether a light is taken away even where there is none of it.
     const bool everywhere = _settings.show == Show::MASK;
     int index = 0;
@@ -96,16 +111,13 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
     {
         const EyeLight& light = lights[number];
         LightDecision decision;
-        const double reach = _settings.show == Show::MASK
-                                 ? std::numeric_limits<double>::infinity()
-                                 : std::min({limits[number], reachPast(receivers, light),
-                                             reachPast(frustum, light)});
+        const double reach = everywhere ? std::numeric_limits<double>::infinity()
+                                        : std::min({limits[number], reachPast(receivers, light),
+                                                    reachPast(frustum, light)});
         const std::optional<ScreenBounds> bounds =
             screenBounds(sphereOf(light, reach), projection, viewport);
-        if (!light.castsShadow)
-            decision.reason = "it says castShadow=0";
-        else if (light.isHeadlight && !_settings.headlightShadow)
-            decision.reason = "the headlight casts no shadow (headlight=noshadow)";
+        if (const char* reason = whyNoShadow(light))
+            decision.reason = reason;
         else if (!bounds)
             decision.reason = "it lights nothing on the screen";
         else

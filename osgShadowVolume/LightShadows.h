@@ -93,7 +93,8 @@ protected:
     osg::RefMatrix* getProjection() const { return _projection.get(); }
 
 private:
-    LightDecision decide(const EyeLight& light) const;
+    /// What the light or the settings say against its shadows; null for nothing.
+    const char* whyNoShadow(const EyeLight& light) const;
 
     const ShadowSettings _settings;
     bool _isDynamic = false;

@@ -91,7 +91,7 @@ int main(int argc, char** argv)
         return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
     timer.getViewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
     std::vector<Candidate> candidates;
-    for (const char* name : {"chess/king.iv", "vehicles/bird_of_prey.iv", "tools/hammer.iv"})
+    for (const char* name : {"chess/king.iv", "engine.iv", "buildings/temple.iv"})
     {
         const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(support::inventorModel(name));
         if (model)
