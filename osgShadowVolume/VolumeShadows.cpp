@@ -5,6 +5,7 @@
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
+#include <osg/Scissor>
 #include <osg/Viewport>
 #include <osgDB/ReadFile>
 
@@ -96,8 +97,9 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     if (!any)
         return;
     bool hasTransparent = false;
-    frame.forEachItem([&](const SurfaceItem& item)
-                      { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
+    frame.forEachItem(
+        [&](const SurfaceItem& item)
+        { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     TargetLayout layout;
@@ -108,7 +110,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
     _targets = _resources.targets.acquire(_contextID, layout);
 
-    FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    FramebufferVisit visit(state);
     // Without it osg::State would go back to its default viewport at our own draws.
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
@@ -144,8 +146,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     {
         frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
                            [&](const SurfaceItem& item) {
-                               return isReceiver(item) && isOpaque(item) &&
-                                      hasHoles(item) == holes;
+                               return isReceiver(item) && isOpaque(item) && hasHoles(item) == holes;
                            });
     };
     draw(Pass::Depth, false);
@@ -214,7 +215,14 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
             _targets->bindMask(state, layer, word);
             resolve(renderInfo, -1);
         }
+        const ScreenBounds& bounds = getDecision(light).bounds;
+        osg::ref_ptr<osg::StateSet> area = new osg::StateSet;
+        area->setAttributeAndModes(
+            new osg::Scissor(bounds.x, bounds.y, bounds.width, bounds.height),
+            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
         _targets->bindCounter(state, layer);
+        state.pushStateSet(area);
+        state.apply();
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -222,6 +230,10 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
         drawVolumes(renderInfo, light);
         _targets->bindMask(state, layer, word);
         resolve(renderInfo, index % 32);
+        state.popStateSet();
+        // What clears next, clears all; the next area may come to lie where this one was.
+        state.applyMode(GL_SCISSOR_TEST, false);
+        state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
     }
 }
 
@@ -236,7 +248,7 @@ const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
 void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
 {
     const LightDecision& decision = getDecision(light);
-    const CasterDraw::View view{renderInfo, _resources,       _technique,
+    const CasterDraw::View view{renderInfo, _resources,      _technique,
                                 _tier,      getProjection(), _frameNumber};
     CasterDraw draw(view, getLights()[light]);
     std::size_t zFail = 0;
@@ -252,8 +264,12 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
     }
     _drawCalls += draw.getDrawCalls();
     const std::size_t casters = decision.casters.size();
+    const TargetLayout& layout = _targets->getLayout();
+    const double share = double(decision.bounds.width) * decision.bounds.height /
+                         (double(layout.width) * layout.height);
     _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
-                           ", z-fail for " + std::to_string(zFail);
+                           ", z-fail for " + std::to_string(zFail) + ", on " +
+                           std::to_string(std::lround(100.0 * share)) + " % of the screen";
 }
 
 std::string VolumeShadows::makeSource(bool transparent) const
