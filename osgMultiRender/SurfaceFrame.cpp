@@ -205,7 +205,7 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
 }
 
 void SurfaceFrame::forEachLight(
-    const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const
+    const std::function<void(const osg::Light&, const osg::Matrix*, bool isHeadlight)>& f) const
 {
     const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post)
     {
@@ -214,9 +214,9 @@ void SurfaceFrame::forEachLight(
         const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix)
         {
             if (!post)
-                return f(light, matrix);
+                return f(light, matrix, !matrix);
             const osg::Matrix product = matrix ? *matrix * *post : *post;
-            f(light, &product);
+            f(light, &product, !matrix);
         };
         for (const auto& [attribute, matrix] : container->getAttrMatrixList())
         {
@@ -371,6 +371,12 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         return;
     _prepared = true;
     osg::State& state = *renderInfo.getState();
+    // After the stage of a camera drawn before, osg::State may have gone back to its default.
+    if (const osg::Viewport* viewport = _stage->getViewport())
+    {
+        viewport->apply(state);
+        state.haveAppliedAttribute(viewport);
+    }
     const auto* gl = state.get<osg::GLExtensions>();
     _languageVersion = gl->glslLanguageVersion;
     // Some drivers tell of a newer language than their version of GL goes with.
@@ -402,7 +408,7 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     else
     {
         forEachLight(
-            [this](const osg::Light& light, const osg::Matrix*)
+            [this](const osg::Light& light, const osg::Matrix*, bool)
             {
                 if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
                     _lights[light.getLightNum()] = &light;

@@ -48,8 +48,10 @@ public:
     const osgUtil::RenderStage& getStage() const { return *_stage; }
 
     /// Calls `f` for each light positioned in this view, in the order in which GL gets them, with
-    /// its matrix to eye coordinates (null for identity).
-    void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const;
+    /// its matrix to eye coordinates (null for identity). The viewer's headlight has no place in
+    /// the scene; in a picture inside of the view it has a matrix like any other.
+    void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*,
+                                               bool isHeadlight)>& f) const;
 
     /// Box of all leaves that have a bound, in eye coordinates times `matrix`; invalid for none.
     /// Leaves without a bound make it infinite in fact: then `unbounded` is set.

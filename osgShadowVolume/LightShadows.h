@@ -25,6 +25,7 @@ struct LightDecision
     /// Casters that may throw shadows on what is in view, as indices.
     std::vector<std::uint32_t> casters;
     /// Parallel to `casters`: its volume may hold or cut the near rectangle.
+    /// So does each where casters are seen through.
     std::vector<bool> needsZFail;
 };
 
@@ -88,6 +89,7 @@ private:
 
     const ShadowSettings _settings;
     bool _isDynamic = false;
+    bool _isClipped = false; ///< Casters are seen through where a mirror clips them away.
     std::vector<Caster> _casters;
     std::map<std::string, unsigned int> _notCasting; ///< By reason, for the plan.
     osg::ref_ptr<osg::RefMatrix> _projection;
