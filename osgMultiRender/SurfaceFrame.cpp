@@ -59,6 +59,7 @@ public:
         else
             _frame->drawLeaf(renderInfo, _bin, _single);
         _frame->proxyDrawn(renderInfo);
+        _frame = nullptr; // the leaf may be kept longer
         // The next leaf starts from our StateGraph.
         osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
         if (_dynamic)
@@ -79,12 +80,14 @@ public:
     bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     void accept(osg::PrimitiveFunctor& functor) const override
     {
-        for (const osgUtil::RenderLeaf* leaf : _frame->getLeaves(_bin))
-            leaf->_drawable->accept(functor);
+        osg::ref_ptr<SurfaceFrame> frame;
+        if (_frame.lock(frame)) // not drawn yet
+            for (const osgUtil::RenderLeaf* leaf : frame->getLeaves(_bin))
+                leaf->_drawable->accept(functor);
     }
 
 private:
-    osg::ref_ptr<SurfaceFrame> _frame;
+    osg::observer_ptr<SurfaceFrame> _frame;
     std::size_t _bin;
 };
 
@@ -150,7 +153,8 @@ SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
 
 SurfaceFrame::~SurfaceFrame() = default;
 
-void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
+std::vector<osg::ref_ptr<osgUtil::RenderLeaf>>
+SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
 {
     for (const auto& [order, stage] : _private->getPreRenderList())
         _stage->addPreRenderStage(stage.get(), order);
@@ -160,11 +164,13 @@ void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
     _stage->setClearColor(_private->getClearColor());
     _stage->setClearMask(_private->getClearMask());
     mirror(graph, *_private, *_bin);
+    return std::move(_made);
 }
 
 void SurfaceFrame::addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy)
 {
     graph.addLeaf(proxy);
+    _made.push_back(proxy);
     ++_proxies;
 }
 

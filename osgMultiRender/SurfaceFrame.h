@@ -41,8 +41,10 @@ public:
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
-    /// After the traversal: puts proxies into the bins of the view, below `graph`.
-    void insertProxies(osgUtil::StateGraph& graph);
+    /// After the traversal: puts proxies into the bins of the view, below `graph`, and returns
+    /// them. OSG looks at the last leaf drawn when the stage is done and its StateGraphs are
+    /// empty: the proxies have to be kept until the stage is culled again.
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> insertProxies(osgUtil::StateGraph& graph);
 
     /// The stage of the view, which holds the positioned lights.
     const osgUtil::RenderStage& getStage() const { return *_stage; }
@@ -109,6 +111,7 @@ private:
     std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
     std::vector<bool> _isOrdered; ///< One a bin: by depth or traversal, one proxy a leaf.
     std::size_t _proxies = 0;     ///< Still to be drawn.
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _made;
 
     bool _prepared = false;
     float _languageVersion = 0.0f;
