@@ -32,7 +32,8 @@ public:
     CasterDraw(const View& view, const EyeLight& light) : _view(view), _light(light) {}
 
     /// A caster for the next run().
-    void add(const osg::ref_ptr<CasterMesh>& mesh, const osg::ref_ptr<const osg::RefMatrix>& modelview);
+    void add(const osg::ref_ptr<CasterMesh>& mesh,
+             const osg::ref_ptr<const osg::RefMatrix>& modelview);
     /// Draws what was added since the last one, with caps for z-fail.
     void run(ShadowPasses::Count count);
     /// Of volumes that are shown.
@@ -48,7 +49,7 @@ private:
         float handedness; ///< Sign of the modelview's determinant.
     };
 
-    float endOf(const MeshLight& light) const;
+    float endOf(const Placed& placed) const;
     void drawPass(ShadowPasses::Pass pass, ShadowPasses::Count count);
     void place(const Placed& placed);
     void drawParts(ShadowPasses::Pass pass, const Placed& placed);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/LightShadows.h>
 
+#include <osgShadowVolume/MirrorCamera.h>
+
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -67,6 +69,7 @@ LightShadows::~LightShadows() = default;
 void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
 {
     _projection = visitor.getProjectionMatrix();
+    _isClipped = MirrorCamera::isInside(visitor);
     CasterCollector collector(visitor, _settings.transparentCasters);
     collector.collect(group);
     _casters = std::move(collector.getCasters());
@@ -132,7 +135,7 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                     toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
                 {
                     decision.casters.push_back(i);
-                    decision.needsZFail.push_back(toNear.mayTouch(boxes[i]));
+                    decision.needsZFail.push_back(_isClipped || toNear.mayTouch(boxes[i]));
                 }
             const bool castsPastNear =
                 std::find(decision.needsZFail.begin(), decision.needsZFail.end(), true) !=

@@ -28,6 +28,7 @@ struct LightDecision
     /// Casters that may throw shadows on what is in view, as indices.
     std::vector<std::uint32_t> casters;
     /// Parallel to `casters`: its volume may hold or cut the near rectangle.
+    /// So does each where casters are seen through.
     std::vector<bool> needsZFail;
     ScreenBounds bounds; ///< Where it may light anything.
 };
@@ -98,6 +99,7 @@ private:
 
     const ShadowSettings _settings;
     bool _isDynamic = false;
+    bool _isClipped = false; ///< Casters are seen through where a mirror clips them away.
     std::vector<Caster> _casters;
     std::set<const osg::Light*> _shadowless;
     std::map<std::string, unsigned int> _notCasting; ///< By reason, for the plan.

@@ -32,11 +32,10 @@ struct Part
 };
 
 void addSide(std::vector<std::uint32_t>& indices, std::uint32_t from, std::uint32_t to,
-             std::uint32_t vertexCount, bool directional)
+             std::uint32_t vertexCount, bool endsInAPoint)
 {
     indices.insert(indices.end(), {to, from, from + vertexCount});
-    // All extrusions of a directional light are the same point.
-    if (!directional)
+    if (!endsInAPoint)
         indices.insert(indices.end(), {to, from + vertexCount, to + vertexCount});
 }
 
@@ -50,9 +49,9 @@ void findSides(const EdgeMesh& mesh, const EdgeMesh::Group& group, std::size_t b
         const std::uint32_t* record = group.indices.data() + i * size;
         const int count = multiplicity(mesh, record, group.opposites, light);
         if (count > 0)
-            addSide(sides[count], record[0], record[1], vertexCount, light.light.w == 0.0f);
+            addSide(sides[count], record[0], record[1], vertexCount, light.endsInAPoint());
         else if (count < 0)
-            addSide(sides[-count], record[1], record[0], vertexCount, light.light.w == 0.0f);
+            addSide(sides[-count], record[1], record[0], vertexCount, light.endsInAPoint());
     }
 }
 
@@ -70,7 +69,7 @@ void findCaps(const EdgeMesh& mesh, std::size_t begin, std::size_t end, const Me
         if (side < 0)
             std::swap(t.y, t.z);
         part.nearCaps.insert(part.nearCaps.end(), {t.x, t.y, t.z});
-        if (light.light.w != 0.0f)
+        if (!light.endsInAPoint())
             part.farCaps.insert(part.farCaps.end(),
                                 {t.z + vertexCount, t.y + vertexCount, t.x + vertexCount});
     }

@@ -15,6 +15,11 @@ struct MeshLight
     /// What single precision leaves of the position: far from the origin a light is placed more
     /// finely than vertices are.
     glm::vec3 rest{0.0f};
+    /// w of extrusions, v + (v * l.w - l.xyz) / end: 0 puts them at infinity.
+    float end = 0.0f;
+
+    /// Whether all extrusions are one point.
+    bool endsInAPoint() const { return light.w == 0.0f && end == 0.0f; }
 };
 OSGSHADOWVOLUME_EXPORT MeshLight toMeshLight(const EdgeMesh& mesh, const glm::dvec4& light);
 
@@ -34,8 +39,8 @@ OSGSHADOWVOLUME_EXPORT int multiplicity(const EdgeMesh& mesh, const std::uint32_
                                         std::uint32_t opposites, const MeshLight& light);
 
 /// The surface of a mesh's shadow volume, as triangles of indices. Index i is vertex i of the mesh,
-/// i + vertices.size() is its extrusion away from the light to infinity, (v * l.w - l.xyz, 0).
-/// Seen from outside of the volume all are counterclockwise.
+/// i + vertices.size() is its extrusion away from the light, to infinity unless the light says
+/// where volumes end. Seen from outside of the volume all are counterclockwise.
 struct Silhouette
 {
     /// Sides that count so many times.
@@ -46,10 +51,9 @@ struct Silhouette
     };
 
     std::vector<Sides> sides;            ///< Ascending by weight. One triangle an edge for a
-                                         ///< directional light, else two.
+                                         ///< light whose volumes end in a point, else two.
     std::vector<std::uint32_t> nearCaps; ///< What faces the light, weight 1.
-    std::vector<std::uint32_t> farCaps;  ///< The same at infinity; empty for a directional light,
-                                         ///< whose volume ends in one point.
+    std::vector<std::uint32_t> farCaps; ///< The same at the other end; empty where that is a point.
 };
 
 /// Finds it, in `threads` threads at most where that pays; 0 stands for those that the machine

@@ -37,15 +37,16 @@ osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const MeshLig
 
 } // namespace
 
-osg::ref_ptr<SilhouetteCache::Volume>
-SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh, const MeshLight& light,
-                     unsigned int frameNumber)
+osg::ref_ptr<SilhouetteCache::Volume> SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh,
+                                                           const MeshLight& light,
+                                                           unsigned int frameNumber)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     if (frameNumber != _frameNumber)
         evict(frameNumber);
-    Entry& entry = _entries[Key(mesh.get(), light.light.x, light.light.y, light.light.z, light.light.w, light.rest.x,
-                                light.rest.y, light.rest.z)];
+    Entry& entry =
+        _entries[Key(mesh.get(), light.light.x, light.light.y, light.light.z, light.light.w,
+                     light.rest.x, light.rest.y, light.rest.z, light.endsInAPoint())];
     if (!entry.volume)
     {
         entry.mesh = mesh;

@@ -41,7 +41,8 @@ private:
         osg::ref_ptr<Volume> volume;
         unsigned int frameNumber = 0;
     };
-    using Key = std::tuple<const CasterMesh*, float, float, float, float, float, float, float>;
+    using Key =
+        std::tuple<const CasterMesh*, float, float, float, float, float, float, float, bool>;
 
     void evict(unsigned int frameNumber);
 

@@ -61,6 +61,7 @@ void expectNoLeak(osg::Node& scene, const CameraSpec& camera, const std::string&
     for (const auto& [way, difference] : result.differences)
     {
         EXPECT_GT(difference.object, 0u) << name;
+        EXPECT_EQ(difference.withinRounding, 0u) << name << ": the place of a light is exact here";
         if (!both)
             continue;
         EXPECT_GT(difference.shadowed, 0u) << name << ": nothing is in shadow";
