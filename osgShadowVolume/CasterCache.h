@@ -26,7 +26,8 @@ public:
     static constexpr unsigned int FramesUnused = 60;
 
     /// The mesh of these Drawables, built now where it is not there or no longer true. None of them
-    /// may change while it runs.
+    /// may change while it runs. Looks at each array's count: ask once a frame, not for each light.
+    /// A Drawable that is no Geometry has no counts and is taken not to change.
     osg::ref_ptr<CasterMesh> get(const CasterSource& source);
 
     /// Forgets what is no longer used; each view calls it in each frame. Viewers with frame numbers

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/CasterCollector.h>
 
+#include <osgShadowVolume/CastShadow.h>
+
 #include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/ClearNode>
+#include <osg/LightSource>
 #include <osg/Projection>
-#include <osg/ValueObject>
 #include <osgUtil/CullVisitor>
 
 #include <algorithm>
@@ -15,18 +17,6 @@ namespace osgShadowVolume
 
 namespace
 {
-
-/// Whether the value is one that says no.
-bool isNo(const osg::ValueObject& value)
-{
-    const auto is = [&](auto no)
-    {
-        const auto* typed = dynamic_cast<const osg::TemplateValueObject<decltype(no)>*>(&value);
-        return typed && typed->getValue() == no;
-    };
-    return is(false) || is(0) || is(0u) || is(0.0f) || is(0.0) || is(std::string("0")) ||
-           is(std::string("false"));
-}
 
 const char* nameOf(NoCaster reason)
 {
@@ -110,16 +100,10 @@ void CasterCollector::collect(osg::Node& node)
 
 bool CasterCollector::casts(const osg::Node& node)
 {
-    const osg::UserDataContainer* data = node.getUserDataContainer();
-    if (!data)
+    if (!saysNoShadow(node))
         return true;
-    const auto* value = dynamic_cast<const osg::ValueObject*>(data->getUserObject("castShadow"));
-    bool no = value && isNo(*value);
-    for (unsigned int i = 0; i != data->getNumDescriptions(); ++i)
-        no = no || data->getDescriptions()[i] == "castShadow=0";
-    if (no)
-        ++_leftOut["castShadow=0"];
-    return !no;
+    ++_leftOut["castShadow=0"];
+    return false;
 }
 
 void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
@@ -177,6 +161,13 @@ void CasterCollector::apply(osg::Transform& node)
         --_pushed;
     }
     _state = outer;
+}
+
+void CasterCollector::apply(osg::LightSource& source)
+{
+    if (source.getLight() && saysNoShadow(source))
+        _shadowless.insert(source.getLight());
+    osg::NodeVisitor::apply(static_cast<osg::Group&>(source));
 }
 
 void CasterCollector::apply(osg::Drawable& drawable)

@@ -10,6 +10,7 @@
 #include <osg/Transform>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,9 @@ public:
     /// What casts nothing: "billboards" and so on, with how many there are.
     const std::map<std::string, unsigned int>& getLeftOut() const { return _leftOut; }
 
+    /// Lights whose LightSource says castShadow=0. A Light can say so itself, wherever it is.
+    std::set<const osg::Light*>& getShadowless() { return _shadowless; }
+
     osg::CullStack* asCullStack() override { return &cullStack(); }
     const osg::CullStack* asCullStack() const override { return &cullStack(); }
     osg::Vec3 getEyePoint() const override;
@@ -78,6 +82,7 @@ public:
     float getDistanceToViewPoint(const osg::Vec3& point, bool withLODScale) const override;
 
     void apply(osg::Node& node) override;
+    void apply(osg::LightSource& source) override;
     void apply(osg::Drawable& drawable) override;
     void apply(osg::Transform& node) override;
     void apply(osg::Camera& node) override;
@@ -114,6 +119,7 @@ private:
     State _state;
     std::vector<Caster> _casters;
     std::map<std::string, unsigned int> _leftOut;
+    std::set<const osg::Light*> _shadowless;
 };
 
 } // namespace osgShadowVolume

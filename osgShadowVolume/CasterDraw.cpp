@@ -4,6 +4,7 @@
 #include <osg/GLExtensions>
 #include <osg/Program>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgShadowVolume
@@ -44,26 +45,59 @@ void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
     _placed.push_back({mesh, modelview,
                        toMeshLight(mesh->getEdges(), {local.x(), local.y(), local.z(), local.w()}),
                        determinant < 0.0 ? -1.0f : 1.0f});
+    _placed.back().light.end = endOf(_placed.back());
 }
 
-void CasterDraw::run(bool zFail)
+float CasterDraw::endOf(const Placed& placed) const
+{
+    // All rays of an orthographic view meet at one point at infinity, so that a cap there covers
+    // all of the picture or nothing and is not drawn. So there volumes end, 2^24 times as far
+    // from a positional light as their caster.
+    const osg::Matrixd& p = *_view.projection;
+    const bool isPerspective = p(0, 3) != 0.0 || p(1, 3) != 0.0 || p(2, 3) != 0.0;
+    if (isPerspective)
+        return 0.0f;
+    const glm::vec4& light = placed.light.light;
+    if (light.w != 0.0f)
+        return std::ldexp(light.w, -24);
+    // Sides that run along the view are not drawn either, and can't close the volume of a
+    // directional light. There it ends beyond what is in view.
+    const osg::Matrixd toClip = osg::Matrixd(*placed.modelview) * p;
+    const osg::Vec3d way =
+        osg::Matrixd::transform3x3(osg::Vec3d(light.x, light.y, light.z), toClip);
+    if (std::hypot(way.x(), way.y()) > std::ldexp(std::abs(way.z()), -16))
+        return 0.0f;
+    double depth = 1.0;
+    const osg::BoundingBoxd box(placed.mesh->getBoundingBox());
+    for (unsigned int corner = 0; corner < 8; ++corner)
+        depth = std::max(depth, std::abs((box.corner(corner) * toClip).z()));
+    const double end = std::abs(way.z()) / (4.0 * depth);
+    return std::isfinite(end) ? float(end) : 0.0f;
+}
+
+void CasterDraw::run(ShadowPasses::Count count)
 {
     if (_placed.empty())
         return;
+    // What lies before a surface and what lies behind it add up to 0: both ways count into one
+    // counter, so z-pass counts the other way round.
+    if (count == ShadowPasses::Count::ZPass)
+        for (Placed& placed : _placed)
+            placed.handedness = -placed.handedness;
     const bool onCpu = _view.technique == Technique::CPU;
-    drawPass(onCpu                                  ? Pass::TriangleSides
+    drawPass(onCpu                                ? Pass::TriangleSides
              : _view.technique == Technique::TESS ? Pass::TessSides
-                                                    : Pass::GeometrySides,
-             zFail);
-    if (zFail)
-        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, zFail);
+                                                  : Pass::GeometrySides,
+             count);
+    if (count == ShadowPasses::Count::ZFail)
+        drawPass(onCpu ? Pass::TriangleCaps : Pass::GeometryCaps, count);
     _placed.clear();
 }
 
-void CasterDraw::drawPass(Pass pass, bool zFail)
+void CasterDraw::drawPass(Pass pass, ShadowPasses::Count count)
 {
     osg::State& state = *_view.renderInfo.getState();
-    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, zFail));
+    state.pushStateSet(&_view.resources.passes.get(pass, _view.tier, count));
     state.apply();
     state.applyProjectionMatrix(_view.projection.get());
     if (state.getLastAppliedProgramObject())
@@ -78,12 +112,17 @@ void CasterDraw::drawPass(Pass pass, bool zFail)
 void CasterDraw::place(const Placed& placed)
 {
     static const unsigned int light = osg::Uniform::getNameID("osgsv_localLight");
+    static const unsigned int color = osg::Uniform::getNameID("osgsv_color");
+    static const unsigned int rest = osg::Uniform::getNameID("osgsv_lightRest");
     osg::State& state = *_view.renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform4fv(program.getUniformLocation(light), 1,
-                                                 &placed.light[0]);
+    const auto* gl = state.get<osg::GLExtensions>();
+    gl->glUniform4fv(program.getUniformLocation(light), 1, &placed.light.light[0]);
+    gl->glUniform3fv(program.getUniformLocation(rest), 1, &placed.light.rest[0]);
     setUniform(state, "osgsv_meshScale", placed.mesh->getEdges().scale);
     setUniform(state, "osgsv_handedness", placed.handedness);
+    setUniform(state, "osgsv_end", placed.light.end);
+    gl->glUniform4fv(program.getUniformLocation(color), 1, _color.ptr());
     state.applyModelViewMatrix(placed.modelview.get());
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();

@@ -5,6 +5,7 @@
 #include <osgShadowVolume/LightReach.h>
 #include <osgShadowVolume/ShadowResources.h>
 #include <osgShadowVolume/ShadowSettings.h>
+#include <osgShadowVolume/Silhouette.h>
 
 #include <osg/RenderInfo>
 
@@ -31,9 +32,12 @@ public:
     CasterDraw(const View& view, const EyeLight& light) : _view(view), _light(light) {}
 
     /// A caster for the next run().
-    void add(const osg::ref_ptr<CasterMesh>& mesh, const osg::ref_ptr<const osg::RefMatrix>& modelview);
+    void add(const osg::ref_ptr<CasterMesh>& mesh,
+             const osg::ref_ptr<const osg::RefMatrix>& modelview);
     /// Draws what was added since the last one, with caps for z-fail.
-    void run(bool zFail);
+    void run(ShadowPasses::Count count);
+    /// Of volumes that are shown.
+    void setColor(const osg::Vec4& color) { _color = color; }
     unsigned int getDrawCalls() const { return _drawCalls; }
 
 private:
@@ -41,11 +45,12 @@ private:
     {
         osg::ref_ptr<CasterMesh> mesh;
         osg::ref_ptr<const osg::RefMatrix> modelview;
-        glm::vec4 light;  ///< In the caster's own coordinates.
+        MeshLight light;
         float handedness; ///< Sign of the modelview's determinant.
     };
 
-    void drawPass(ShadowPasses::Pass pass, bool zFail);
+    float endOf(const Placed& placed) const;
+    void drawPass(ShadowPasses::Pass pass, ShadowPasses::Count count);
     void place(const Placed& placed);
     void drawParts(ShadowPasses::Pass pass, const Placed& placed);
     void drawGeometry(const osg::Geometry& geometry);
@@ -53,6 +58,7 @@ private:
     const View& _view;
     const EyeLight& _light;
     std::vector<Placed> _placed;
+    osg::Vec4 _color;
     unsigned int _drawCalls = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include <osgShadowVolume/EdgeMeshBuilder.h>
 
+#include <osg/Notify>
 #include <osg/PatchParameter>
 #include <osg/State>
 #include <osg/TriangleFunctor>
@@ -10,6 +11,8 @@
 #include <osgText/TextBase>
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <cstring>
 #include <type_traits>
 
@@ -81,6 +84,50 @@ struct AddIndexed
     }
 };
 
+/// Triangles of primitives, with the quads of strips divided as Mesa draws them: along the diagonal
+/// from the first corner to the fourth, not along the other one, which OSG's functor takes.
+class ReadTriangles : public osg::TriangleIndexFunctor<AddIndexed>
+{
+public:
+    void drawArrays(GLenum mode, GLint first, GLsizei count) override
+    {
+        if (mode == GL_QUAD_STRIP)
+            readStrip(count, [=](GLsizei i) { return unsigned(first + i); });
+        else
+            osg::TriangleIndexFunctor<AddIndexed>::drawArrays(mode, first, count);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLubyte* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLushort* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+    void drawElements(GLenum mode, GLsizei count, const GLuint* indices) override
+    {
+        readElements(mode, count, indices);
+    }
+
+private:
+    template <class T> void readElements(GLenum mode, GLsizei count, const T* indices)
+    {
+        if (mode == GL_QUAD_STRIP)
+            readStrip(count, [=](GLsizei i) { return unsigned(indices[i]); });
+        else
+            osg::TriangleIndexFunctor<AddIndexed>::drawElements(mode, count, indices);
+    }
+
+    template <class At> void readStrip(GLsizei count, const At& at)
+    {
+        for (GLsizei i = 0; i + 3 < count; i += 2)
+        {
+            (*this)(at(i), at(i + 1), at(i + 3));
+            (*this)(at(i), at(i + 3), at(i + 2));
+        }
+    }
+};
+
 struct AddTriangles
 {
     EdgeMeshBuilder* builder = nullptr;
@@ -118,7 +165,7 @@ std::size_t addDrawable(const osg::Drawable& drawable, EdgeMeshBuilder& builder)
         return 0;
     Positions positions;
     array->accept(positions);
-    osg::TriangleIndexFunctor<AddIndexed> functor;
+    ReadTriangles functor;
     functor.builder = &builder;
     functor.points = &positions.points;
     for (unsigned int i = 0; i != geometry->getNumPrimitiveSets(); ++i)
@@ -199,6 +246,30 @@ NoCaster whyNoCaster(const osg::Drawable& drawable)
 
 CasterMesh::~CasterMesh() = default;
 
+namespace
+{
+
+/// Says once what is wrong with Drawables of a name: a mesh that changes is built again and again.
+void warnOnce(const CasterSource& source, std::size_t triangles, const char* reason)
+{
+    static std::mutex mutex;
+    static std::set<std::string> said;
+    if (!triangles)
+        return;
+    std::string name;
+    for (const auto& drawable : source)
+        if (name.empty())
+            name = drawable->getName();
+    name = name.empty() ? "a drawable" : "drawable '" + name + "'";
+    std::lock_guard<std::mutex> lock(mutex);
+    if (said.size() < 100 && said.insert(name + reason).second)
+        OSG_WARN << "osgShadowVolume: " << name << ": " << triangles << " of its triangles "
+                 << (triangles == 1 ? "casts" : "cast") << " no shadow, because " << reason
+                 << std::endl;
+}
+
+} // namespace
+
 void CasterMesh::build(const CasterSource& source)
 {
     std::call_once(_built,
@@ -210,6 +281,9 @@ void CasterMesh::build(const CasterSource& source)
                        _edges = builder.build();
                        for (const glm::vec3& v : _edges.vertices)
                            _box.expandBy(v.x, v.y, v.z);
+                       warnOnce(source, _edges.notFinite,
+                                "a coordinate is infinite or not a number");
+                       warnOnce(source, _badIndices, "an index is beyond the vertices");
                    });
 }
 

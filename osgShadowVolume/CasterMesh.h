@@ -31,8 +31,9 @@ OSGSHADOWVOLUME_EXPORT NoCaster whyNoCaster(const osg::Drawable& drawable);
 /// The welded triangles of some Drawables, and what draws them.
 ///
 /// All primitive types of OSG are read, indexed or not, from vertices of any type; four
-/// coordinates are divided by the last. Indices beyond the vertices are left out and counted.
-/// Functions may be called from any thread.
+/// coordinates are divided by the last. Indices beyond the vertices are left out and counted. A
+/// quad that is not planar is two triangles. GL leaves open along which diagonal; where it draws
+/// the other one the quad may shadow itself. Functions may be called from any thread.
 class OSGSHADOWVOLUME_EXPORT CasterMesh : public osg::Referenced
 {
 public:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/EyeLights.h>
 
+#include <osgShadowVolume/CastShadow.h>
+
 namespace osgShadowVolume
 {
 
@@ -26,6 +28,7 @@ EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
     eye.number = light.getLightNum();
     eye.name = light.getName();
     eye.isHeadlight = !matrix;
+    eye.castsShadow = !saysNoShadow(light);
     eye.ambient = toGlm(light.getAmbient());
     eye.diffuse = toGlm(light.getDiffuse());
     eye.specular = toGlm(light.getSpecular());

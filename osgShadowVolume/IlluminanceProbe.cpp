@@ -92,7 +92,7 @@ IlluminanceProbe::IlluminanceProbe(osg::Node& scene, const ShadowSettings& setti
         return;
     }
     _metresPerUnit = scale.value;
-    const std::vector<SceneLight> lights = collectLights(scene);
+    const std::vector<SceneLight> lights = collectLights(scene, settings);
     _error = lights.empty() ? "no illuminance without lights: the scene has no LightSource"
                             : describeUnknown(lights);
     if (!_error.empty())

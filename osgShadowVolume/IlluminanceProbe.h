@@ -58,8 +58,8 @@ public:
     };
 
     /// Takes triangles and lights as they are now; the scene may change or go afterwards. Of the
-    /// settings count metresPerUnit (0: what the scene states), shadows (OFF: none) and
-    /// transparentCasters.
+    /// settings count metresPerUnit (0: what the scene states), candela and lux (of lights that
+    /// state nothing), shadows (OFF: none) and transparentCasters.
     IlluminanceProbe(osg::Node& scene, const ShadowSettings& settings);
 
     /// Empty, or one line on what is unknown: scale, or lights without intensity. Then measure()

@@ -74,7 +74,7 @@ LightMeasures IlluminanceView::measure(osgUtil::CullVisitor& visitor, osg::Group
     group.accept(finder);
     std::vector<SceneLight> lights;
     for (osg::Node* root : finder.roots)
-        for (SceneLight& light : collectLights(*root))
+        for (SceneLight& light : collectLights(*root, settings))
             lights.push_back(std::move(light));
     const Stated scale =
         settings.metresPerUnit > 0.0 ? Stated{settings.metresPerUnit, {}} : metresPerUnitOf(group);

@@ -8,6 +8,8 @@
 #include <osg/GLExtensions>
 #include <osgDB/ReadFile>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -130,6 +132,8 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
         {
             EyeLight eye = toEye(light, matrix);
             eye.isHeadlight = isHeadlight;
+            if (_shadows && _shadows->isShadowless(light))
+                eye.castsShadow = false;
             if (measuresLight(_settings) && !measure(eye, light, frame))
                 return;
             if (_lightScope == LitScene::LightScope::MODES)
@@ -172,6 +176,7 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
     // Half of the tolerance is for what the whole view leaves out, half for what a leaf does.
     const double threshold = 0.5 * _tolerance / std::max<std::size_t>(1, all.size());
+    std::vector<double> limits;
     for (const EyeLight& light : all)
     {
         if (!isUsable(light))
@@ -187,7 +192,10 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
         else if (everythingBounded && !reaches(light, reach, center, radius))
             _dropped.push_back({light, "it reaches nothing in view"});
         else
+        {
             _lights.push_back(light);
+            limits.push_back(reach);
+        }
     }
     _used.assign(_lights.size(), false);
     if (_shadows)
@@ -195,7 +203,12 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
         _shadows->begin(renderInfo);
         GLint viewport[4];
         glGetIntegerv(GL_VIEWPORT, viewport);
-        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, frame, _lights);
+        const glm::dmat4 toEye(glm::make_mat4(osg::Matrixd::inverse(_toGrid).ptr()));
+        const Hexahedron receivers = everythingBounded
+                                         ? boxOf(_boxMin, _boxMax, toEye)
+                                         : boxOf(glm::dvec3(1.0), glm::dvec3(-1.0), toEye);
+        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, receivers, _lights,
+                       limits);
     }
     if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)

@@ -88,7 +88,7 @@ void MapShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame&
                                        {std::max(1u, _budget.size), std::max(1u, _budget.layers)});
     _bytes = _targets->getBytes();
     _targets->setData(makeData(maps));
-    const FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    const FramebufferVisit visit(state);
     state.pushStateSet(_targets->getDrawState());
     state.pushStateSet(&_resources.mapPrograms.get(_samples));
     state.apply();

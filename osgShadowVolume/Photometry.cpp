@@ -175,9 +175,11 @@ Stated intensityOf(const osg::LightSource& source)
     {
         if (lux)
             return parse("lux", *lux, 0.0);
-        return {-1.0, candela || lumen ? "it is directional and needs lux=<number> instead of "
-                                         "candela or lumen"
-                                       : "it states no lux=<number>"};
+        return {-1.0,
+                candela || lumen ? "it is directional and needs lux=<number> instead of "
+                                   "candela or lumen"
+                                 : "it states no lux=<number>",
+                !candela && !lumen};
     }
     if (candela && lumen)
         return {-1.0, "it states both candela and lumen"};
@@ -193,9 +195,11 @@ Stated intensityOf(const osg::LightSource& source)
             stated.value /= cone;
         return stated;
     }
-    return {-1.0, lux ? "it has a position and needs candela=<number> or lumen=<number> instead of "
-                        "lux"
-                      : "it states no candela=<number>"};
+    return {-1.0,
+            lux ? "it has a position and needs candela=<number> or lumen=<number> instead of "
+                  "lux"
+                : "it states no candela=<number>",
+            !lux};
 }
 
 Stated metresPerUnitOf(const osg::Node& scene)
@@ -211,7 +215,7 @@ Stated metresPerUnitOf(const osg::Node& scene)
         if (visitor.found.isKnown() || !visitor.found.error.empty())
             return visitor.found;
     }
-    return {-1.0, "no node states metresPerUnit=<number>"};
+    return {-1.0, "no node states metresPerUnit=<number>", true};
 }
 
 std::string describeLight(const osg::Light& light)

@@ -17,8 +17,9 @@ namespace osgShadowVolume
 /// A quantity that a scene states, or why it is unknown.
 struct Stated
 {
-    double value = -1.0; ///< Negative while unknown.
-    std::string error;   ///< One clause on an unknown value: "it states no candela=<number>".
+    double value = -1.0;    ///< Negative while unknown.
+    std::string error;      ///< One clause on an unknown value: "it states no candela=<number>".
+    bool isMissing = false; ///< Nothing is stated, rightly or wrongly.
 
     bool isKnown() const { return value >= 0.0; }
 };

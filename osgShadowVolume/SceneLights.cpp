@@ -37,10 +37,16 @@ public:
 
 } // namespace
 
-std::vector<SceneLight> collectLights(osg::Node& root)
+std::vector<SceneLight> collectLights(osg::Node& root, const ShadowSettings& settings)
 {
     LightCollector collector;
     root.accept(collector);
+    for (SceneLight& light : collector.lights)
+    {
+        const double given = light.world.isDirectional() ? settings.lux : settings.candela;
+        if (light.intensity.isMissing && given > 0.0)
+            light.intensity = {given, {}};
+    }
     return std::move(collector.lights);
 }
 

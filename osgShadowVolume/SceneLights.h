@@ -3,6 +3,7 @@
 
 #include <osgShadowVolume/LightReach.h>
 #include <osgShadowVolume/Photometry.h>
+#include <osgShadowVolume/ShadowSettings.h>
 
 #include <osg/Light>
 #include <osg/Node>
@@ -22,7 +23,8 @@ struct SceneLight
 };
 
 /// The lights of all LightSources that are not masked or switched off, once for each way to them.
-std::vector<SceneLight> collectLights(osg::Node& root);
+/// Those that state no intensity have that of the settings, if there is one.
+std::vector<SceneLight> collectLights(osg::Node& root, const ShadowSettings& settings);
 
 /// One line about the lights whose intensity is unknown, naming the first few and the remedy;
 /// empty for none.

@@ -162,6 +162,10 @@ std::vector<SceneOption> makeOptions()
              &S::getMetresPerUnit, &S::setMetresPerUnit),
         real("maxlux", "Lux at the top of the false colours; 0 chooses", infinity,
              &S::getIlluminanceMaximum, &S::setIlluminanceMaximum),
+        real("candela", "Of point and spot lights that state no intensity; 0 is unknown", infinity,
+             &S::getCandela, &S::setCandela),
+        real("lux", "Of directional lights that state none; 0 is unknown", infinity, &S::getLux,
+             &S::setLux),
         choice("lighting",
                "Where light is evaluated: per pixel by any number of lights, per vertex by GL's "
                "eight as the fixed function does, or nowhere; shadows need pixel",

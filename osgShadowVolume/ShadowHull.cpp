@@ -44,7 +44,7 @@ glm::dvec3 middleOf(const Hexahedron& h)
 }
 
 /// The end of the edge that starts at `corner` along a bit.
-constexpr unsigned int along(unsigned int corner, unsigned int bit)
+constexpr unsigned int endOf(unsigned int corner, unsigned int bit)
 {
     return corner | (1u << bit);
 }
@@ -127,14 +127,29 @@ ShadowHull::ShadowHull(const Hexahedron& hexahedron, const glm::dvec4& light)
         {
             // Diagonals give the normal even where an edge of the face has no length.
             const unsigned int corner = side << other;
-            add(_corners[along(along(corner, bit), next)] - _corners[corner],
-                _corners[along(corner, bit)] - _corners[along(corner, next)]);
+            add(_corners[endOf(endOf(corner, bit), next)] - _corners[corner],
+                _corners[endOf(corner, bit)] - _corners[endOf(corner, next)]);
         }
         for (unsigned int i = 0; i < 8; ++i)
             if (!(i & (1u << bit)))
-                add(_corners[along(i, bit)] - _corners[i],
+            {
+                addEdge(_corners[endOf(i, bit)] - _corners[i]);
+                add(_corners[endOf(i, bit)] - _corners[i],
                     _isAtInfinity ? _light : _light - _corners[i]);
+            }
     }
+    for (const glm::dvec3& corner : _corners)
+        addEdge(_isAtInfinity ? _light : _light - corner);
+}
+
+void ShadowHull::addEdge(const glm::dvec3& way)
+{
+    const glm::dvec3 unit = glm::normalize(way);
+    const bool isNew = std::none_of(_edges.begin(), _edges.end(),
+                                    [&](const glm::dvec3& edge)
+                                    { return std::abs(glm::dot(edge, unit)) >= 1.0 - 1e-12; });
+    if (isFinite(unit) && isNew)
+        _edges.push_back(unit);
 }
 
 ShadowHull::Axis ShadowHull::axisAlong(const glm::dvec3& unit) const
@@ -178,8 +193,8 @@ double ShadowHull::shareTowardsLight(const Hexahedron& box) const
     return std::max(0.0, (farthest - _towards.low) / (_towards.light - _towards.low));
 }
 
-bool ShadowHull::separates(const Axis& axis, const Hexahedron& box, double share,
-                           double margin) const
+ShadowHull::Relation ShadowHull::along(const Axis& axis, const Hexahedron& box, double share,
+                                       double margin) const
 {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const glm::dvec3& corner : box)
@@ -190,8 +205,27 @@ bool ShadowHull::separates(const Axis& axis, const Hexahedron& box, double share
     }
     const double up = _isAtInfinity ? axis.light : axis.light - axis.high;
     const double down = _isAtInfinity ? axis.light : axis.light - axis.low;
-    return low > axis.high + share * std::max(0.0, up) + margin ||
-           high < axis.low + share * std::min(0.0, down) - margin;
+    const double highest = axis.high + share * std::max(0.0, up);
+    const double lowest = axis.low + share * std::min(0.0, down);
+    if (low > highest + margin || high < lowest - margin)
+        return Relation::Apart;
+    const double middle = 0.5 * (low + high);
+    return middle >= lowest && middle <= highest ? Relation::Within : Relation::Across;
+}
+
+bool ShadowHull::isApartByEdges(const Hexahedron& box, double share, double margin) const
+{
+    for (unsigned int bit = 0; bit < 3; ++bit)
+    {
+        const glm::dvec3 edge = glm::normalize(box[1u << bit] - box[0]);
+        for (const glm::dvec3& other : _edges)
+        {
+            const glm::dvec3 unit = glm::normalize(glm::cross(edge, other));
+            if (isFinite(unit) && along(axisAlong(unit), box, share, margin) == Relation::Apart)
+                return true;
+        }
+    }
+    return false;
 }
 
 bool ShadowHull::mayTouch(const Hexahedron& box) const
@@ -206,18 +240,26 @@ bool ShadowHull::mayTouch(const Hexahedron& box) const
         corner -= _origin;
     }
     const double share = shareTowardsLight(relative), margin = Margin * extent;
+    // A point within all faces is in the hull; those of a flat hull are not all among the axes.
+    bool isWithin = _axes.size() >= 4;
     for (const Axis& axis : _axes)
-        if (separates(axis, relative, share, margin))
+    {
+        const Relation relation = along(axis, relative, share, margin);
+        if (relation == Relation::Apart)
             return false;
+        isWithin = isWithin && relation == Relation::Within;
+    }
+    if (isWithin)
+        return true; // as most that touch
     // The faces of the box, which may be flat or a line.
     for (unsigned int bit = 0; bit < 3; ++bit)
     {
         const glm::dvec3 unit = glm::normalize(glm::cross(
             relative[1u << bit] - relative[0], relative[1u << ((bit + 1) % 3)] - relative[0]));
-        if (isFinite(unit) && separates(axisAlong(unit), relative, share, margin))
+        if (isFinite(unit) && along(axisAlong(unit), relative, share, margin) == Relation::Apart)
             return false;
     }
-    return true;
+    return !isApartByEdges(relative, share, margin);
 }
 
 } // namespace osgShadowVolume

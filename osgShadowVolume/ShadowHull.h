@@ -66,8 +66,16 @@ private:
 
     Axis axisAlong(const glm::dvec3& unit) const;
     void add(const glm::dvec3& first, const glm::dvec3& second);
+    void addEdge(const glm::dvec3& way);
     double shareTowardsLight(const Hexahedron& box) const;
-    bool separates(const Axis& axis, const Hexahedron& box, double share, double margin) const;
+    enum class Relation
+    {
+        Apart,
+        Across,
+        Within ///< The middle of the box is.
+    };
+    Relation along(const Axis& axis, const Hexahedron& box, double share, double margin) const;
+    bool isApartByEdges(const Hexahedron& box, double share, double margin) const;
 
     Hexahedron _corners; ///< Relative to _origin, as all coordinates below.
     glm::dvec3 _origin;
@@ -76,6 +84,7 @@ private:
     double _extent = 0.0; ///< The largest coordinate, in eye coordinates.
     Axis _towards{};      ///< From the middle of the hexahedron to the light.
     std::vector<Axis> _axes;
+    std::vector<glm::dvec3> _edges; ///< Of the hull, unit vectors, each direction once.
 };
 
 } // namespace osgShadowVolume

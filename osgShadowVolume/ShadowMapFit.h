@@ -33,7 +33,7 @@ OSGSHADOWVOLUME_EXPORT MapBudget fitBudget(const std::vector<unsigned int>& laye
 ///
 /// Maps are fixed to the axes of the world, so that shadow edges stay where they are while the
 /// camera moves.
-struct ShadowMap
+struct OSGSHADOWVOLUME_EXPORT ShadowMap
 {
     enum Kind
     {

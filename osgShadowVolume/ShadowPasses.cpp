@@ -40,6 +40,21 @@ bool isCaps(Pass pass)
     return pass == Pass::GeometryCaps || pass == Pass::TriangleCaps;
 }
 
+VolumePart partOf(Pass pass)
+{
+    switch (pass)
+    {
+    case Pass::TessSides:
+        return VolumePart::TESS_SIDES;
+    case Pass::GeometrySides:
+        return VolumePart::GEOMETRY_SIDES;
+    case Pass::GeometryCaps:
+        return VolumePart::CAPS;
+    default:
+        return VolumePart::SILHOUETTE;
+    }
+}
+
 /// State in which leaves are drawn once more, over their own.
 void setDepthState(osg::StateSet& state)
 {
@@ -58,23 +73,30 @@ void setScreenState(osg::StateSet& state, bool combine)
     state.addUniform(new osg::Uniform("osgsv_counter", ShadowTargets::DepthUnit));
 }
 
-void setVolumeState(osg::StateSet& state, bool zFail, bool caps)
+void setVolumeState(osg::StateSet& state, ShadowPasses::Count count, bool caps)
 {
+    const bool zFail = count == ShadowPasses::Count::ZFail;
+    const bool shown = count == ShadowPasses::Count::Shown;
     // What fails LESS passes GEQUAL: a blended count has no operation for failing fragments.
     state.setAttributeAndModes(
         new osg::Depth(zFail ? osg::Depth::GEQUAL : osg::Depth::LESS, 0.0, 1.0, false), On);
     // Nothing of a volume may be lost before the near or behind the far plane. Under z-pass no
     // volume comes near the near plane, and what lies before it must not count.
     state.setMode(GL_DEPTH_CLAMP, zFail ? On : Off);
-    state.setAttributeAndModes(new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE), On);
+    state.setAttributeAndModes(shown ? new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA,
+                                                          osg::BlendFunc::ONE_MINUS_SRC_ALPHA)
+                                     : new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE),
+                               On);
     state.setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
     state.setAttribute(new osg::ColorMask, On);
     for (GLenum mode : {GL_CULL_FACE, GL_STENCIL_TEST, GL_ALPHA_TEST, GL_COLOR_LOGIC_OP})
         state.setMode(mode, Off);
     // A near cap lies in the surface that casts. It has to count as behind it, so that a surface
-    // is in its own shadow exactly where light comes from behind; nothing is visible between.
+    // is in its own shadow exactly where light comes from behind. A small share of the slope makes
+    // up for what two rasterizations of one triangle differ by; a whole one would push caps that the
+    // near plane cuts behind other surfaces.
     if (caps)
-        state.setAttributeAndModes(new osg::PolygonOffset(1.0f, 4.0f), On);
+        state.setAttributeAndModes(new osg::PolygonOffset(1.0f / 64.0f, 4.0f), On);
 }
 
 struct Stage
@@ -118,9 +140,9 @@ std::string headOf(Pass pass, const ShadowPasses::Tier& tier)
 
 } // namespace
 
-const osg::StateSet& ShadowPasses::get(Pass pass, const Tier& tier, bool zFail)
+const osg::StateSet& ShadowPasses::get(Pass pass, const Tier& tier, Count count)
 {
-    const Key key{pass, tier, zFail};
+    const Key key{pass, tier, count};
     std::lock_guard<std::mutex> lock(_mutex);
     osg::ref_ptr<osg::StateSet>& state = _states[key];
     if (!state)
@@ -135,7 +157,7 @@ osg::ref_ptr<osg::StateSet> ShadowPasses::make(const Key& key)
     if (osg::ref_ptr<osg::Program> program = makeProgram(key))
         state->setAttribute(program, On);
     if (isVolume(key.pass))
-        setVolumeState(*state, key.zFail, isCaps(key.pass));
+        setVolumeState(*state, key.count, isCaps(key.pass));
     else if (key.pass == Pass::Clear || key.pass == Pass::Resolve)
         setScreenState(*state, key.pass == Pass::Resolve);
     else
@@ -150,20 +172,8 @@ osg::ref_ptr<osg::StateSet> ShadowPasses::make(const Key& key)
 
 osg::ref_ptr<osg::Program> ShadowPasses::makeProgram(const Key& key)
 {
-    switch (key.pass)
-    {
-    case Pass::TessSides:
-        return makeVolumeProgram(VolumePart::TESS_SIDES, key.tier.language);
-    case Pass::GeometrySides:
-        return makeVolumeProgram(VolumePart::GEOMETRY_SIDES, key.tier.language);
-    case Pass::GeometryCaps:
-        return makeVolumeProgram(VolumePart::CAPS, key.tier.language);
-    case Pass::TriangleSides:
-    case Pass::TriangleCaps:
-        return makeVolumeProgram(VolumePart::SILHOUETTE, key.tier.language);
-    default:
-        break;
-    }
+    if (isVolume(key.pass))
+        return makeVolumeProgram(partOf(key.pass), key.tier.language, key.count == Count::Shown);
     const std::vector<Stage> stages = stagesOf(key.pass);
     if (stages.empty())
         return nullptr;

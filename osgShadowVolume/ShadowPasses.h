@@ -40,8 +40,16 @@ public:
         }
     };
 
-    /// The state of a pass; `zFail` counts for the volumes alone. Lives as long as this.
-    const osg::StateSet& get(Pass pass, const Tier& tier, bool zFail = false);
+    /// How volumes are drawn.
+    enum class Count
+    {
+        ZPass, ///< What is before the depths.
+        ZFail, ///< What is behind them.
+        Shown  ///< As translucent surfaces in the picture.
+    };
+
+    /// The state of a pass; `count` is for the volumes alone. Lives as long as this.
+    const osg::StateSet& get(Pass pass, const Tier& tier, Count count = Count::ZPass);
 
     void releaseGLObjects(osg::State* state) const;
 
@@ -50,12 +58,12 @@ private:
     {
         Pass pass;
         Tier tier;
-        bool zFail;
+        Count count;
         bool operator<(const Key& other) const
         {
             if (pass != other.pass)
                 return pass < other.pass;
-            return zFail != other.zFail ? zFail < other.zFail : tier < other.tier;
+            return count != other.count ? count < other.count : tier < other.tier;
         }
     };
     osg::ref_ptr<osg::StateSet> make(const Key& key);

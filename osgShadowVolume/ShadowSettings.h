@@ -56,6 +56,8 @@ struct ShadowSettings
     bool keys = true;
     double metresPerUnit = 0.0;
     double illuminanceMaximum = 0.0;
+    double candela = 0.0;
+    double lux = 0.0;
 };
 
 /// Whether illuminance is drawn instead of a picture.

@@ -92,6 +92,14 @@ public:
     void setIlluminanceMaximum(double lux) { _settings.illuminanceMaximum = lux; }
     double getIlluminanceMaximum() const { return _settings.illuminanceMaximum; }
 
+    /// Candela of point and spot lights that state no intensity, for measuring; 0 for unknown.
+    void setCandela(double candela) { _settings.candela = candela; }
+    double getCandela() const { return _settings.candela; }
+
+    /// Lux of directional lights that state none; 0 for unknown.
+    void setLux(double lux) { _settings.lux = lux; }
+    double getLux() const { return _settings.lux; }
+
     void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 

@@ -32,16 +32,15 @@ struct Part
 };
 
 void addSide(std::vector<std::uint32_t>& indices, std::uint32_t from, std::uint32_t to,
-             std::uint32_t vertexCount, bool directional)
+             std::uint32_t vertexCount, bool endsInAPoint)
 {
     indices.insert(indices.end(), {to, from, from + vertexCount});
-    // All extrusions of a directional light are the same point.
-    if (!directional)
+    if (!endsInAPoint)
         indices.insert(indices.end(), {to, from + vertexCount, to + vertexCount});
 }
 
 void findSides(const EdgeMesh& mesh, const EdgeMesh::Group& group, std::size_t begin,
-               std::size_t end, const glm::vec4& light, Weighted& sides)
+               std::size_t end, const MeshLight& light, Weighted& sides)
 {
     const std::uint32_t vertexCount = std::uint32_t(mesh.vertices.size());
     const std::size_t size = 2 + group.opposites;
@@ -50,13 +49,13 @@ void findSides(const EdgeMesh& mesh, const EdgeMesh::Group& group, std::size_t b
         const std::uint32_t* record = group.indices.data() + i * size;
         const int count = multiplicity(mesh, record, group.opposites, light);
         if (count > 0)
-            addSide(sides[count], record[0], record[1], vertexCount, light.w == 0.0f);
+            addSide(sides[count], record[0], record[1], vertexCount, light.endsInAPoint());
         else if (count < 0)
-            addSide(sides[-count], record[1], record[0], vertexCount, light.w == 0.0f);
+            addSide(sides[-count], record[1], record[0], vertexCount, light.endsInAPoint());
     }
 }
 
-void findCaps(const EdgeMesh& mesh, std::size_t begin, std::size_t end, const glm::vec4& light,
+void findCaps(const EdgeMesh& mesh, std::size_t begin, std::size_t end, const MeshLight& light,
               Part& part)
 {
     const std::uint32_t vertexCount = std::uint32_t(mesh.vertices.size());
@@ -70,14 +69,14 @@ void findCaps(const EdgeMesh& mesh, std::size_t begin, std::size_t end, const gl
         if (side < 0)
             std::swap(t.y, t.z);
         part.nearCaps.insert(part.nearCaps.end(), {t.x, t.y, t.z});
-        if (light.w != 0.0f)
+        if (!light.endsInAPoint())
             part.farCaps.insert(part.farCaps.end(),
                                 {t.z + vertexCount, t.y + vertexCount, t.x + vertexCount});
     }
 }
 
 /// The `number`-th of `parts` equal parts of each list of the mesh.
-Part findPart(const EdgeMesh& mesh, const glm::vec4& light, std::size_t number, std::size_t parts,
+Part findPart(const EdgeMesh& mesh, const MeshLight& light, std::size_t number, std::size_t parts,
               std::size_t groupNumber)
 {
     Part part;
@@ -94,9 +93,12 @@ Part findPart(const EdgeMesh& mesh, const glm::vec4& light, std::size_t number, 
     return part;
 }
 
-void append(std::vector<std::uint32_t>& list, const std::vector<std::uint32_t>& more)
+void append(std::vector<std::uint32_t>& list, std::vector<std::uint32_t>& more)
 {
-    list.insert(list.end(), more.begin(), more.end());
+    if (list.empty())
+        list.swap(more);
+    else
+        list.insert(list.end(), more.begin(), more.end());
 }
 
 std::size_t countParts(const EdgeMesh& mesh, unsigned int threads)
@@ -109,24 +111,26 @@ std::size_t countParts(const EdgeMesh& mesh, unsigned int threads)
 
 } // namespace
 
-glm::vec4 toMeshLight(const EdgeMesh& mesh, const glm::dvec4& light)
+MeshLight toMeshLight(const EdgeMesh& mesh, const glm::dvec4& light)
 {
     const double size = std::max(
         {std::abs(light.x), std::abs(light.y), std::abs(light.z), std::abs(light.w) * mesh.reach});
     if (!(size > 0.0) || !std::isfinite(size))
-        return glm::vec4(light);
-    return glm::vec4(light * std::ldexp(1.0, -std::ilogb(size)));
+        return {glm::vec4(light), glm::vec3(0.0f)};
+    const glm::dvec4 scaled = light * std::ldexp(1.0, -std::ilogb(size));
+    const glm::vec4 rounded(scaled);
+    return {rounded, glm::vec3(glm::dvec3(scaled) - glm::dvec3(rounded))};
 }
 
-int facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec4& light,
+int facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const MeshLight& light,
            float scale)
 {
     const float ux = (c.x - a.x) * scale;
     const float uy = (c.y - a.y) * scale;
     const float uz = (c.z - a.z) * scale;
-    const float vx = light.x - a.x * light.w;
-    const float vy = light.y - a.y * light.w;
-    const float vz = light.z - a.z * light.w;
+    const float vx = (light.light.x - a.x * light.light.w) + light.rest.x;
+    const float vy = (light.light.y - a.y * light.light.w) + light.rest.y;
+    const float vz = (light.light.z - a.z * light.light.w) + light.rest.z;
     const float nx = uy * vz - uz * vy;
     const float ny = uz * vx - ux * vz;
     const float nz = ux * vy - uy * vx;
@@ -136,7 +140,7 @@ int facing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm
 }
 
 int multiplicity(const EdgeMesh& mesh, const std::uint32_t* record, std::uint32_t opposites,
-                 const glm::vec4& light)
+                 const MeshLight& light)
 {
     const std::uint32_t low = record[0], high = record[1];
     const glm::vec3& a = mesh.vertices[low];
@@ -156,7 +160,7 @@ int multiplicity(const EdgeMesh& mesh, const std::uint32_t* record, std::uint32_
     return sum;
 }
 
-Silhouette silhouetteOf(const EdgeMesh& mesh, const glm::vec4& light, unsigned int threads)
+Silhouette silhouetteOf(const EdgeMesh& mesh, const MeshLight& light, unsigned int threads)
 {
     const std::size_t parts = countParts(mesh, threads);
     Weighted sides;
@@ -176,7 +180,7 @@ Silhouette silhouetteOf(const EdgeMesh& mesh, const glm::vec4& light, unsigned i
         found.push_back(other.get());
     // Group by group, so that the order is that of the mesh whatever the number of parts.
     for (std::size_t group = 0; group <= mesh.groups.size(); ++group)
-        for (const std::vector<Part>& lists : found)
+        for (std::vector<Part>& lists : found)
         {
             for (std::size_t weight = 1; weight != sides.size(); ++weight)
                 append(sides[weight], lists[group].sides[weight]);

@@ -21,7 +21,7 @@ osg::ref_ptr<osg::Geometry> makeGeometry(osg::Vec4Array* vertices,
     return geometry;
 }
 
-osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const glm::vec4& light)
+osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const MeshLight& light)
 {
     const Silhouette silhouette = silhouetteOf(mesh.getEdges(), light, 0);
     osg::Vec4Array* vertices = mesh.getExtrudable();
@@ -37,14 +37,16 @@ osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const glm::ve
 
 } // namespace
 
-osg::ref_ptr<SilhouetteCache::Volume>
-SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh, const glm::vec4& light,
-                     unsigned int frameNumber)
+osg::ref_ptr<SilhouetteCache::Volume> SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh,
+                                                           const MeshLight& light,
+                                                           unsigned int frameNumber)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     if (frameNumber != _frameNumber)
         evict(frameNumber);
-    Entry& entry = _entries[Key(mesh.get(), light.x, light.y, light.z, light.w)];
+    Entry& entry =
+        _entries[Key(mesh.get(), light.light.x, light.light.y, light.light.z, light.light.w,
+                     light.rest.x, light.rest.y, light.rest.z, light.endsInAPoint())];
     if (!entry.volume)
     {
         entry.mesh = mesh;

@@ -28,7 +28,7 @@ public:
     };
 
     /// The volume of a mesh; `light` as of toMeshLight().
-    osg::ref_ptr<Volume> get(const osg::ref_ptr<CasterMesh>& mesh, const glm::vec4& light,
+    osg::ref_ptr<Volume> get(const osg::ref_ptr<CasterMesh>& mesh, const MeshLight& light,
                              unsigned int frameNumber);
     void releaseGLObjects(osg::State* state);
 
@@ -41,7 +41,8 @@ private:
         osg::ref_ptr<Volume> volume;
         unsigned int frameNumber = 0;
     };
-    using Key = std::tuple<const CasterMesh*, float, float, float, float>;
+    using Key =
+        std::tuple<const CasterMesh*, float, float, float, float, float, float, float, bool>;
 
     void evict(unsigned int frameNumber);
 

@@ -72,13 +72,21 @@ std::string volumeShaderText(VolumePart part, osg::Shader::Type stage, int glslV
     return std::string();
 }
 
-osg::ref_ptr<osg::Program> makeVolumeProgram(VolumePart part, int glslVersion)
+osg::ref_ptr<osg::Program> makeVolumeProgram(VolumePart part, int glslVersion, bool shown)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setName("osgShadowVolume");
     for (const Stage& stage : stages())
         if (stage.part == part)
-            program->addShader(new osg::Shader(stage.type, textOf(stage, glslVersion)));
+        {
+            Stage drawn = stage;
+            if (shown && stage.type == osg::Shader::FRAGMENT)
+            {
+                drawn.file = "shown.frag";
+                drawn.text = shaders::shown_frag;
+            }
+            program->addShader(new osg::Shader(stage.type, textOf(drawn, glslVersion)));
+        }
     return program;
 }
 

@@ -12,7 +12,7 @@ namespace osgShadowVolume
 
 /// The programs that draw shadow volumes into a counter, an R32F target with additive blending.
 ///
-/// Uniforms: `osgsv_localLight` (toMeshLight()), `osgsv_handedness` (1, or -1 where the modelview's
+/// Uniforms: `osgsv_localLight` and `osgsv_lightRest` (MeshLight), `osgsv_end` (w of extrusions), `osgsv_handedness` (1, or -1 where the modelview's
 /// determinant is negative); where the GPU judges `osgsv_meshScale` (EdgeMesh::scale); SILHOUETTE
 /// has `osgsv_weight` instead. The modelview and projection matrices are GL's own.
 enum class VolumePart
@@ -28,8 +28,10 @@ enum class VolumePart
 OSGSHADOWVOLUME_EXPORT std::string volumeShaderText(VolumePart part, osg::Shader::Type stage,
                                                     int glslVersion);
 
-/// Makes the program; nothing is compiled yet.
+/// Makes the program; nothing is compiled yet. One that is shown writes the uniform `osgsv_color`
+/// where the multiplicity is not 0, instead of counts.
 OSGSHADOWVOLUME_EXPORT osg::ref_ptr<osg::Program> makeVolumeProgram(VolumePart part,
-                                                                    int glslVersion);
+                                                                    int glslVersion,
+                                                                    bool shown = false);
 
 } // namespace osgShadowVolume

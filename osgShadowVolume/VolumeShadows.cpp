@@ -5,6 +5,7 @@
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
+#include <osg/Scissor>
 #include <osg/Viewport>
 #include <osgDB/ReadFile>
 
@@ -25,6 +26,18 @@ void drawScreen(osg::State& state)
     // gl_VertexID alone places the corners.
     state.disableAllVertexArrays();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// Hues that are far apart for neighbours.
+osg::Vec4 colorOf(int index)
+{
+    const float hue = 6.0f * std::fmod(0.13f + 0.618034f * float(index), 1.0f);
+    const auto channel = [hue](float offset)
+    {
+        const float k = std::fmod(offset + hue, 6.0f);
+        return 1.0f - std::max(0.0f, std::min({k, 4.0f - k, 1.0f}));
+    };
+    return {channel(5.0f), channel(3.0f), channel(1.0f), 0.12f};
 }
 
 bool isOpaque(const SurfaceItem& item)
@@ -84,8 +97,9 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     if (!any)
         return;
     bool hasTransparent = false;
-    frame.forEachItem([&](const SurfaceItem& item)
-                      { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
+    frame.forEachItem(
+        [&](const SurfaceItem& item)
+        { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     TargetLayout layout;
@@ -96,7 +110,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
     _targets = _resources.targets.acquire(_contextID, layout);
 
-    FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    FramebufferVisit visit(state);
     // Without it osg::State would go back to its default viewport at our own draws.
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
@@ -132,8 +146,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     {
         frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
                            [&](const SurfaceItem& item) {
-                               return isReceiver(item) && isOpaque(item) &&
-                                      hasHoles(item) == holes;
+                               return isReceiver(item) && isOpaque(item) && hasHoles(item) == holes;
                            });
     };
     draw(Pass::Depth, false);
@@ -202,7 +215,14 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
             _targets->bindMask(state, layer, word);
             resolve(renderInfo, -1);
         }
+        const ScreenBounds& bounds = getDecision(light).bounds;
+        osg::ref_ptr<osg::StateSet> area = new osg::StateSet;
+        area->setAttributeAndModes(
+            new osg::Scissor(bounds.x, bounds.y, bounds.width, bounds.height),
+            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
         _targets->bindCounter(state, layer);
+        state.pushStateSet(area);
+        state.apply();
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -210,6 +230,10 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
         drawVolumes(renderInfo, light);
         _targets->bindMask(state, layer, word);
         resolve(renderInfo, index % 32);
+        state.popStateSet();
+        // What clears next, clears all; the next area may come to lie where this one was.
+        state.applyMode(GL_SCISSOR_TEST, false);
+        state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
     }
 }
 
@@ -224,7 +248,7 @@ const osg::ref_ptr<CasterMesh>& VolumeShadows::getMesh(std::size_t caster)
 void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
 {
     const LightDecision& decision = getDecision(light);
-    const CasterDraw::View view{renderInfo, _resources,       _technique,
+    const CasterDraw::View view{renderInfo, _resources,      _technique,
                                 _tier,      getProjection(), _frameNumber};
     CasterDraw draw(view, getLights()[light]);
     std::size_t zFail = 0;
@@ -236,12 +260,16 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
                 draw.add(getMesh(decision.casters[i]), getCasters()[decision.casters[i]].modelview);
                 zFail += failing;
             }
-        draw.run(failing);
+        draw.run(failing ? ShadowPasses::Count::ZFail : ShadowPasses::Count::ZPass);
     }
     _drawCalls += draw.getDrawCalls();
     const std::size_t casters = decision.casters.size();
+    const TargetLayout& layout = _targets->getLayout();
+    const double share = double(decision.bounds.width) * decision.bounds.height /
+                         (double(layout.width) * layout.height);
     _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
-                           ", z-fail for " + std::to_string(zFail);
+                           ", z-fail for " + std::to_string(zFail) + ", on " +
+                           std::to_string(std::lround(100.0 * share)) + " % of the screen";
 }
 
 std::string VolumeShadows::makeSource(bool transparent) const
@@ -278,8 +306,35 @@ std::uint32_t VolumeShadows::getVariantBits() const
     return bits;
 }
 
-void VolumeShadows::drawn(osg::RenderInfo&)
+void VolumeShadows::showVolumes(osg::RenderInfo& renderInfo)
 {
+    osg::State& state = *renderInfo.getState();
+    GLint viewport[4];
+    glGetIntegerv(GL_VIEWPORT, viewport);
+    osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+    base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
+                       osg::StateAttribute::OVERRIDE);
+    state.pushStateSet(base);
+    const CasterDraw::View view{renderInfo, _resources,       _technique,
+                                _tier,      getProjection(), _frameNumber};
+    for (std::size_t light = 0; light < getLights().size(); ++light)
+    {
+        const LightDecision& decision = getDecision(light);
+        if (decision.index < 0 || _descriptions[light].empty())
+            continue;
+        CasterDraw draw(view, getLights()[light]);
+        draw.setColor(colorOf(decision.index));
+        for (std::uint32_t caster : decision.casters)
+            draw.add(getMesh(caster), getCasters()[caster].modelview);
+        draw.run(ShadowPasses::Count::Shown);
+    }
+    state.popStateSet();
+}
+
+void VolumeShadows::drawn(osg::RenderInfo& renderInfo)
+{
+    if (_targets && getSettings().show == Show::VOLUMES)
+        showVolumes(renderInfo);
     if (_targets)
         _resources.targets.release(_contextID, _targets);
     _targets = nullptr;

@@ -47,6 +47,7 @@ private:
     void makeMask(osg::RenderInfo& renderInfo, const std::vector<bool>& used, int layer);
     void resolve(osg::RenderInfo& renderInfo, int bit);
     const osg::ref_ptr<CasterMesh>& getMesh(std::size_t caster);
+    void showVolumes(osg::RenderInfo& renderInfo);
     void drawVolumes(osg::RenderInfo& renderInfo, std::size_t light);
 
     ShadowResources& _resources;

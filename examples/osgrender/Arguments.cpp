@@ -178,6 +178,8 @@ Switches renderSwitches(Arguments& a)
                                     return error;
                                 }};
     switches["--probe-csv"] = text(a.probe.csv);
+    switches["--candela"] = number(a.probe.candela, 1e-12);
+    switches["--lux"] = number(a.probe.lux, 1e-12);
     switches["--metres-per-unit"] = number(a.probe.metresPerUnit, 1e-12);
     switches["--title"] = text(a.title);
     switches["--samples"] = whole(a.samples, 0, 64);

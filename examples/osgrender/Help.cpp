@@ -68,6 +68,8 @@ their name; a node states metresPerUnit=N. Without -o and the like nothing is dr
                        as many as EN 12464-1 asks for; normal: u x v, turned upwards). Repeatable
   --probe-csv FILE     every point of every grid
   --metres-per-unit M  instead of what the scene states
+  --candela N          of point and spot lights that state no intensity
+  --lux N              of directional lights that state none
 
 Process
   --backend B          auto, egl or osmesa (default auto: EGL where it works)

@@ -71,6 +71,10 @@ bool measure(osg::Node& model, const ProbeSetting& setting, ProbeResult& result,
     model.accept(finder);
     if (setting.metresPerUnit > 0.0)
         finder.settings.metresPerUnit = setting.metresPerUnit;
+    if (setting.candela > 0.0)
+        finder.settings.candela = setting.candela;
+    if (setting.lux > 0.0)
+        finder.settings.lux = setting.lux;
     const osgShadowVolume::IlluminanceProbe probe(model, finder.settings);
     error = probe.getError();
     if (!error.empty())

@@ -32,6 +32,8 @@ struct ProbeSetting
     std::vector<ProbePoint> points;
     std::vector<ProbeGrid> grids;
     double metresPerUnit = 0.0; ///< 0: what the scene states.
+    double candela = 0.0;       ///< Of point and spot lights that state none; 0: unknown.
+    double lux = 0.0;           ///< Of directional lights likewise.
     std::string csv;            ///< File for all points of all grids; empty: none.
 
     bool isAsked() const { return !points.empty() || !grids.empty(); }

@@ -1,4 +1,4 @@
-// The ends of the volume of a triangle: itself and, for a positional light, its extrusion.
+// The ends of the volume of a triangle: itself and its extrusion, where that is not a point.
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 6) out;
@@ -7,6 +7,8 @@ flat in int osgsv_index[];
 in vec3 osgsv_position[];
 in vec4 osgsv_extruded[];
 flat out float osgsv_multiplicity;
+
+uniform float osgsv_end; // w of extrusions: 0 at infinity
 
 void osgsv_emit(vec4 position, float multiplicity)
 {
@@ -24,8 +26,8 @@ void main()
     for (int i = 0; i < 3; ++i)
         osgsv_emit(gl_in[i].gl_Position, multiplicity);
     EndPrimitive();
-    // All extrusions of a light at infinity are the same point.
-    if (osgsv_localLight.w == 0.0)
+    // All extrusions at infinity of a light at infinity are the same point.
+    if (osgsv_localLight.w == 0.0 && osgsv_end == 0.0)
         return;
     for (int i = 2; i >= 0; --i)
         osgsv_emit(osgsv_extruded[i], multiplicity);

@@ -2,7 +2,8 @@
 // evaluates the same expression (Silhouette.cpp): `precise` on each step keeps compilers from
 // contracting or rearranging it, so that all decide alike to the last bit.
 
-uniform vec4 osgsv_localLight;  // in the mesh's frame; toMeshLight()
+uniform vec4 osgsv_localLight;  // in the mesh's frame: MeshLight
+uniform vec3 osgsv_lightRest;
 uniform float osgsv_meshScale;  // EdgeMesh::scale
 uniform float osgsv_handedness; // sign of the modelview's determinant
 
@@ -10,7 +11,7 @@ uniform float osgsv_handedness; // sign of the modelview's determinant
 int osgsv_facing(vec3 a, vec3 b, vec3 c)
 {
     precise vec3 u = (c - a) * osgsv_meshScale;
-    precise vec3 v = osgsv_localLight.xyz - a * osgsv_localLight.w;
+    precise vec3 v = (osgsv_localLight.xyz - a * osgsv_localLight.w) + osgsv_lightRest;
     precise vec3 n = vec3(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x);
     precise vec3 e = (b - a) * osgsv_meshScale;
     precise float side = n.x * e.x + n.y * e.y + n.z * e.z;

@@ -1,6 +1,8 @@
 // A vertex of a volume whose silhouette was found on the CPU; w = 0 says that it is extruded.
 
 uniform vec4 osgsv_localLight;
+uniform vec3 osgsv_lightRest;
+uniform float osgsv_end;    // w of extrusions: 0 at infinity
 uniform float osgsv_handedness;
 uniform float osgsv_weight; // of what is drawn: Silhouette::Sides, 1 for caps
 
@@ -13,6 +15,9 @@ void main()
     if (gl_Vertex.w != 0.0)
         gl_Position = ftransform();
     else
-        gl_Position = gl_ModelViewProjectionMatrix *
-                      vec4(gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz, 0.0);
+    {
+        vec3 away = (gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) - osgsv_lightRest;
+        gl_Position =
+            gl_ModelViewProjectionMatrix * vec4(away + gl_Vertex.xyz * osgsv_end, osgsv_end);
+    }
 }

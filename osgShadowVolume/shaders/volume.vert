@@ -2,6 +2,8 @@
 // extrusion away from the light is. Both are computed here only, so that sides and caps meet.
 
 uniform vec4 osgsv_localLight;
+uniform vec3 osgsv_lightRest;
+uniform float osgsv_end; // w of extrusions: 0 at infinity
 
 invariant gl_Position;
 flat out int osgsv_index;
@@ -13,7 +15,9 @@ void main()
     osgsv_index = gl_VertexID;
     osgsv_position = gl_Vertex.xyz;
     gl_Position = ftransform();
-    precise vec3 away = gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz;
-    precise vec4 extruded = gl_ModelViewProjectionMatrix * vec4(away, 0.0);
+    precise vec3 away =
+        (gl_Vertex.xyz * osgsv_localLight.w - osgsv_localLight.xyz) - osgsv_lightRest;
+    precise vec4 extruded =
+        gl_ModelViewProjectionMatrix * vec4(away + gl_Vertex.xyz * osgsv_end, osgsv_end);
     osgsv_extruded = extruded;
 }

@@ -109,6 +109,53 @@ TEST_F(OsgRenderProbeGLTest, unknownQuantitiesFailByName)
                 "candela=<number>");
 }
 
+TEST_F(OsgRenderProbeGLTest, switchesStandInForWhatTheModelDoesNotState)
+{
+    const support::ProcessResult result =
+        run({"dark.osgt", "--probe", "0,0,1", "--metres-per-unit", "1", "--candela", "50"});
+    EXPECT_EQ(result.errors, "");
+    EXPECT_EQ(result.output, "probe 0,0,1 normal 0,0,1: 50 lux = 50 (light 5 'lamp')\n");
+}
+
+TEST_F(OsgRenderProbeGLTest, floatPicturesHoldTheLuxOfTheProbe)
+{
+    // From straight above, so that the middle of the picture is the shade under the lamp. A float
+    // EXR of half a percent.
+    expectRenders({"lamp.osgt.(show=lux).shadowvolume", "-o", "lux.exr", "--float", "--camera",
+                   "eye:0,0,9;center:0,0,0;up:0,1,0;fov:40"});
+    const osg::ref_ptr<osg::Image> lux = picture("lux.exr");
+    ASSERT_EQ(lux->s(), 160);
+    for (int x = 4; x < 160; ++x)
+        for (int y = 4; y < 116; y += 3)
+        {
+            // Half the picture's height sees tan(20 degrees) of the distance.
+            const double across = std::tan(20.0 * 3.14159265358979 / 180.0) / 60.0;
+            const double u = (x - 79.5) * across, v = (y - 59.5) * across;
+            const bool onShade = std::max(std::abs(u), std::abs(v)) * 8.0 < 0.98;
+            const double floor = std::max(std::abs(u), std::abs(v)) * 9.0;
+            const double d2 = onShade ? 64.0 * (u * u + v * v) + 1.0 : 81.0 * (u * u + v * v) + 4.0;
+            double expected = 400.0 * (onShade ? 1.0 : 2.0) / (d2 * std::sqrt(d2));
+            if (!onShade && std::max(std::abs(u), std::abs(v)) * 8.0 < 1.02)
+                continue; // the edge of the shade
+            if (!onShade && std::abs(floor - 2.0) < 0.08)
+                continue; // that of its shadow, from -2 to 2 m
+            if (!onShade && floor < 2.0)
+                expected = 0.0;
+            EXPECT_NEAR(lux->getColor(unsigned(x), unsigned(y)).r(), expected, 0.005 * expected)
+                << x << ", " << y;
+        }
+}
+
+TEST_F(OsgRenderProbeGLTest, legendIsInThePictureOfAWholeModel)
+{
+    expectRenders({"lamp.osgt.(show=illuminance,maxlux=500).shadowvolume", "-o", "lux.png",
+                   "--size", "320x240"});
+    // The colour bar at the left: dark below, yellow above.
+    const osg::ref_ptr<osg::Image> image = picture("lux.png");
+    EXPECT_LT(image->getColor(17u, 50u).g(), 0.4f);
+    EXPECT_GT(image->getColor(17u, 182u).g(), 0.7f);
+}
+
 TEST_F(OsgRenderProbeGLTest, wrongSwitchesAreNamed)
 {
     expectFails({"lamp.osgt", "--probe", "1,2"}, 2, "'1,2' is neither x,y,z nor x,y,z,nx,ny,nz");

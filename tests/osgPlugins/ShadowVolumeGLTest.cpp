@@ -250,6 +250,8 @@ TEST_F(ShadowVolumePlugin, allSettingsOfShadowsAreSavedInEachFormat)
                                                             {"keys", "off"},
                                                             {"metres", "0.25"},
                                                             {"maxlux", "1234.5"},
+                                                            {"candela", "800"},
+                                                            {"lux", "90000"},
                                                             {"lights", "all"},
                                                             {"tolerance", "0.125"}};
     for (const auto& [name, text] : settings)

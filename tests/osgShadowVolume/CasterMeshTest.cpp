@@ -4,9 +4,13 @@
 
 #include <osg/Geometry>
 #include <osg/ShapeDrawable>
+#include <osgAnimation/Bone>
 #include <osgAnimation/MorphGeometry>
+#include <osgAnimation/RigGeometry>
+#include <osgAnimation/Skeleton>
 #include <osgParticle/ParticleSystem>
 #include <osgText/Text>
+#include <osgUtil/UpdateVisitor>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +117,25 @@ TEST(CasterMeshTest, indicesMeanTheSameTriangles)
     const osg::ref_ptr<CasterMesh> indexed = meshOf(geometryOf(elements, points(12)));
     EXPECT_EQ(arrays->getEdges().vertices, indexed->getEdges().vertices);
     EXPECT_EQ(arrays->getEdges().triangles, indexed->getEdges().triangles);
+}
+
+TEST(CasterMeshTest, quadsOfStripsAreDividedFromTheFirstCornerToTheFourth)
+{
+    const auto diagonalOf = [](osg::PrimitiveSet* set)
+    {
+        const osg::ref_ptr<CasterMesh> mesh = meshOf(geometryOf(set, points(4)));
+        const std::vector<std::uint32_t>& indices = mesh->getEdges().groups.at(0).indices;
+        // The edge with two opposite vertices; the order of the corners is that of the vertices.
+        for (std::size_t i = 0; i < indices.size(); i += 4)
+            if (indices[i + 3] != indices[i])
+                return std::make_pair(indices[i], indices[i + 1]);
+        return std::make_pair(0u, 0u);
+    };
+    EXPECT_EQ(diagonalOf(new osg::DrawArrays(GL_QUAD_STRIP, 0, 4)), std::make_pair(0u, 3u));
+    EXPECT_EQ(diagonalOf(ascending<osg::DrawElementsUByte>(GL_QUAD_STRIP, 4)),
+              std::make_pair(0u, 3u));
+    EXPECT_EQ(diagonalOf(ascending<osg::DrawElementsUInt>(GL_QUAD_STRIP, 4)),
+              std::make_pair(0u, 3u));
 }
 
 TEST(CasterMeshTest, verticesOfAllTypesAreRead)
@@ -355,4 +378,33 @@ TEST(CasterCacheTest, morphedVerticesAreFollowed)
     morph->setWeight(0, 1.0f);
     morph->transformSoftwareMethod();
     EXPECT_GT(cache->get({morph})->getBoundingBox().zMax(), rest + 50.0f);
+}
+
+TEST(CasterCacheTest, skinnedVerticesAreFollowed)
+{
+    osg::ref_ptr<osgAnimation::Skeleton> skeleton = new osgAnimation::Skeleton;
+    osg::ref_ptr<osgAnimation::Bone> bone = new osgAnimation::Bone("bone");
+    skeleton->addChild(bone);
+    osg::ref_ptr<osgAnimation::RigGeometry> rig = new osgAnimation::RigGeometry;
+    rig->setSourceGeometry(geometryOf(new osg::DrawArrays(GL_TRIANGLES, 0, 6), points(6)));
+    osg::ref_ptr<osgAnimation::VertexInfluenceMap> influences =
+        new osgAnimation::VertexInfluenceMap;
+    osgAnimation::VertexInfluence& influence = (*influences)["bone"];
+    influence.setName("bone");
+    for (unsigned int i = 0; i < 6; ++i)
+        influence.push_back(osgAnimation::VertexIndexWeight(i, 1.0f));
+    rig->setInfluenceMap(influences);
+    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
+    geode->addDrawable(rig);
+    skeleton->addChild(geode);
+    osgUtil::UpdateVisitor update;
+    osg::ref_ptr<osg::FrameStamp> stamp = new osg::FrameStamp;
+    update.setFrameStamp(stamp);
+    skeleton->accept(update);
+    osg::ref_ptr<CasterCache> cache = new CasterCache;
+    const float rest = cache->get({rig})->getBoundingBox().zMax();
+    bone->setMatrixInSkeletonSpace(osg::Matrix::translate(0, 0, 100));
+    stamp->setFrameNumber(1);
+    skeleton->accept(update);
+    EXPECT_NEAR(cache->get({rig})->getBoundingBox().zMax(), rest + 100.0f, 1e-3f);
 }

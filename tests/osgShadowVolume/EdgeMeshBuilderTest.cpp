@@ -187,7 +187,7 @@ TEST(EdgeMeshBuilderTest, scaleTakesTheExtentToAboutOne)
     }
 }
 
-TEST(EdgeMeshBuilderTest, aMillionTrianglesTakeLessThanASecond)
+TEST(EdgeMeshBuilderTest, aMillionTrianglesTakeLessThanThreeSeconds)
 {
     const HardCase hard = grazingTriangles(1000000);
     const auto start = std::chrono::steady_clock::now();
@@ -205,6 +205,6 @@ TEST(EdgeMeshBuilderTest, aMillionTrianglesTakeLessThanASecond)
     RecordProperty("seconds", std::to_string(time.count()));
     std::cout << "1e6 triangles: " << time.count() << " s, " << double(bytes) / double(edges)
               << " bytes an edge\n";
-    // Alone on 2 cores it is a third of that.
+    // On 2 free cores it is a fifth of that.
     EXPECT_LT(time.count(), 3.0);
 }

@@ -16,8 +16,8 @@ double lightnessOf(const glm::vec3& color)
 {
     glm::dvec3 linear;
     for (int i = 0; i < 3; ++i)
-        linear[i] = color[i] <= 0.04045f ? color[i] / 12.92
-                                         : std::pow((color[i] + 0.055) / 1.055, 2.4);
+        linear[i] =
+            color[i] <= 0.04045f ? color[i] / 12.92 : std::pow((color[i] + 0.055) / 1.055, 2.4);
     const double y = glm::dot(glm::dvec3(0.2126, 0.7152, 0.0722), linear);
     return y > 216.0 / 24389.0 ? 116.0 * std::cbrt(y) - 16.0 : y * 24389.0 / 27.0;
 }

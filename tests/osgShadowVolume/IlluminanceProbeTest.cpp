@@ -225,6 +225,13 @@ TEST(IlluminanceProbeTest, whatIsUnknownIsNamed)
     scene->addChild(lamp);
     EXPECT_EQ(probeOf(*scene).getError(), "no illuminance without intensities: light 3 'lamp': it "
                                           "states no candela=<number>");
+    ShadowSettings settings = metres(1.0);
+    settings.candela = 7.0;
+    EXPECT_NEAR(IlluminanceProbe(*scene, settings).measure(osg::Vec3d()).lux, 7.0, 1e-5);
+    lamp->setUserValue("candela", -1);
+    EXPECT_EQ(IlluminanceProbe(*scene, settings).getError(),
+              "no illuminance without intensities: light 3 'lamp': its candela=-1 is not a number "
+              "of at least 0");
     lamp->setUserValue("candela", 5);
     EXPECT_EQ(probeOf(*scene).getError(), "");
 }

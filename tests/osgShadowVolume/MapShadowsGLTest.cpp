@@ -1,136 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include <osgShadowVolume/ShadowedScene.h>
-
-#include <support/CompareImage.h>
-#include <support/HeadlessViewer.h>
+#include "FloorPictures.h"
 
 #include <osg/BlendFunc>
-#include <osg/Depth>
-#include <osg/Geode>
-#include <osg/Geometry>
 #include <osg/Light>
-#include <osg/LightModel>
-#include <osg/LightSource>
 #include <osg/Material>
+#include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
 #include <osg/ValueObject>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 
+using namespace floorScene;
 using osgShadowVolume::ShadowedScene;
 using osgShadowVolume::Shadows;
-
-namespace
-{
-
-constexpr int Width = 256, Height = 256;
-
-/// A floor z = 0 from -4 to 4, seen from above in full: pixels are places on it.
-support::CameraSpec fromAbove()
-{
-    support::CameraSpec spec;
-    spec.view = osg::Matrixd::lookAt(osg::Vec3d(0, 0, 20), osg::Vec3d(), osg::Vec3d(0, 1, 0));
-    spec.projection = osg::Matrixd::ortho(-4, 4, -4, 4, 1, 40);
-    return spec;
-}
-
-osg::Vec2d placeOf(int x, int y)
-{
-    return {-4.0 + 8.0 * (x + 0.5) / Width, -4.0 + 8.0 * (y + 0.5) / Height};
-}
-
-osg::ref_ptr<osg::Geode> rectangle(const osg::Vec3& corner, const osg::Vec3& width,
-                                   const osg::Vec3& height)
-{
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(osg::createTexturedQuadGeometry(corner, width, height));
-    return geode;
-}
-
-osg::ref_ptr<osg::Geode> floorGeode()
-{
-    return rectangle({-4, -4, 0}, {8, 0, 0}, {0, 8, 0});
-}
-
-/// A square of side 2 around the z axis, turned by 30 degrees so that no texel runs along it.
-osg::ref_ptr<osg::Geode> occluder(double z)
-{
-    const osg::Vec3 u(std::cos(0.5236f), std::sin(0.5236f), 0), v(-u.y(), u.x(), 0);
-    return rectangle(osg::Vec3(0, 0, float(z)) - u - v, u * 2, v * 2);
-}
-
-bool isUnderOccluder(const osg::Vec2d& p)
-{
-    const osg::Vec2d u(std::cos(0.5236), std::sin(0.5236));
-    return std::abs(p * u) < 1.0 && std::abs(p * osg::Vec2d(-u.y(), u.x())) < 1.0;
-}
-
-osg::ref_ptr<osg::LightSource> lightSource(unsigned int number, const osg::Vec4& position,
-                                           float brightness = 1.0f)
-{
-    osg::ref_ptr<osg::Light> light = new osg::Light(number);
-    light->setPosition(position);
-    light->setAmbient(osg::Vec4(0, 0, 0, 1));
-    light->setDiffuse(osg::Vec4(brightness, brightness, brightness, 1));
-    light->setSpecular(osg::Vec4(0, 0, 0, 1));
-    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    source->setLight(light);
-    return source;
-}
-
-osg::ref_ptr<ShadowedScene> shadowed()
-{
-    osg::ref_ptr<ShadowedScene> scene = new ShadowedScene;
-    scene->setShadows(Shadows::MAP);
-    scene->setLightScope(osgShadowVolume::LitScene::LightScope::ALL);
-    osg::StateSet* state = scene->getOrCreateStateSet();
-    state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
-    osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
-    model->setAmbientIntensity(osg::Vec4(0, 0, 0, 1)); // shadows are black
-    state->setAttribute(model);
-    return scene;
-}
-
-/// Its viewer has no light of its own.
-support::HeadlessViewer& viewer()
-{
-    static support::HeadlessViewer viewer({Width, Height});
-    if (viewer.isValid())
-        viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
-    return viewer;
-}
-
-osg::ref_ptr<osg::Image> picture(ShadowedScene& scene, const support::CameraSpec& camera)
-{
-    return viewer().render(&scene, camera, Width, Height, 2);
-}
-
-int red(const osg::Image& image, int x, int y)
-{
-    return *image.data(x, y);
-}
-
-/// The share of pixels that are dark where `expected` says lit, or the other way round.
-double wrongShare(const osg::Image& image, const std::function<bool(const osg::Vec2d&)>& inShadow)
-{
-    unsigned int wrong = 0;
-    for (int y = 0; y < Height; ++y)
-        for (int x = 0; x < Width; ++x)
-            wrong += (red(image, x, y) < 20) != inShadow(placeOf(x, y));
-    return double(wrong) / (Width * Height);
-}
-
-std::string entryOf(const osgMultiRender::Plan& plan, const std::string& subject)
-{
-    for (const osgMultiRender::PlanEntry& entry : plan.entries)
-        if (entry.subject.find(subject) != std::string::npos)
-            return std::string(toString(entry.decision)) + ": " + entry.reason;
-    return {};
-}
-
-} // namespace
 
 TEST(MapShadows, theErrorFallsWithTheSizeOfTheMaps)
 {
@@ -210,8 +94,11 @@ TEST(MapShadows, filteringWidensTheEdgeByItsTexels)
     EXPECT_GT(between[1], 1000u);
     EXPECT_LT(between[1], 4000u);
     EXPECT_NEAR(dark[1] / dark[0], 1.0, 0.02) << "it blurs, it does not grow";
-    // A texel is 2 pixels, up to 5 along the light; staircases differ by a little of it.
-    EXPECT_LT((middle[1] - middle[0]).length(), 0.4) << "it does not move";
+    // The shadow's middle lies 2.2 and 0.3 units beside that of the square. A texel is 2 pixels,
+    // up to 5 along the light; staircases differ by a little of it.
+    const osg::Vec2d expected((4.0 - 2.2) * 32.0 - 0.5, (4.0 - 0.3) * 32.0 - 0.5);
+    EXPECT_LT((middle[0] - expected).length(), 0.6);
+    EXPECT_LT((middle[1] - expected).length(), 0.6) << "it does not move";
 }
 
 TEST(MapShadows, surfacesDoNotShadeThemselves)
@@ -386,6 +273,106 @@ TEST(MapShadows, theShadowStaysWhileTheCameraMoves)
         // A pixel whose centre is on the edge of a texel may fall to either side.
         EXPECT_LT(support::difference(*first, *next, 8.0 / 255.0).getShareOver(), 0.0005) << i;
     }
+}
+
+TEST(MapShadows, withoutRoomForAMapALightHasNoShadowAndThePlanSaysSo)
+{
+    OSGKITS_NEED_GL(viewer());
+    osg::ref_ptr<ShadowedScene> scene = shadowed();
+    scene->addChild(floorGeode());
+    scene->addChild(occluder(1.0));
+    scene->addChild(lightSource(0, osg::Vec4(0.5f, 0.4f, 1, 0)));
+    scene->setMapMegabytes(0);
+    const osg::ref_ptr<osg::Image> mapped = picture(*scene, fromAbove());
+    ASSERT_TRUE(mapped);
+    const osgMultiRender::Plan plan = scene->getPlans().at(0);
+    EXPECT_NE(entryOf(plan, "light 0").find("no shadow: there is no room for its map"),
+              std::string::npos)
+        << entryOf(plan, "light 0");
+    scene->setShadows(Shadows::OFF);
+    const osg::ref_ptr<osg::Image> plain = picture(*scene, fromAbove());
+    EXPECT_EQ(support::difference(*mapped, *plain, 0.0).pixelsOver, 0u);
+}
+
+TEST(MapShadows, largeMapsAgreeWithVolumesAtAnyScale)
+{
+    OSGKITS_NEED_GL(viewer());
+    for (const double unit : {1e-5, 1.0, 1e5})
+        for (const char* type : {"directional", "spot", "point"})
+        {
+            osg::ref_ptr<ShadowedScene> scene = shadowed();
+            osg::ref_ptr<osg::MatrixTransform> scaled =
+                new osg::MatrixTransform(osg::Matrixd::scale(unit, unit, unit));
+            osg::StateSet* state = scaled->getOrCreateStateSet();
+            state->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+            scene->addChild(scaled);
+            scaled->addChild(floorGeode());
+            scaled->addChild(occluder(1.0));
+            osg::ref_ptr<osg::Geode> solids = new osg::Geode;
+            for (int i = 0; i < 5; ++i)
+                solids->addDrawable(new osg::ShapeDrawable(new osg::Sphere(
+                    osg::Vec3(-3.0f + 1.4f * i, -2.0f + 0.7f * (i % 3), 0.6f), 0.5f)));
+            solids->addDrawable(
+                new osg::ShapeDrawable(new osg::Box(osg::Vec3(2.0f, 2.0f, 0.8f), 0.9f)));
+            scaled->addChild(solids);
+            osg::ref_ptr<osg::LightSource> source = lightSource(
+                0, type[0] == 'd' ? osg::Vec4(0.7f, -0.4f, 1, 0) : osg::Vec4(0.8f, -0.5f, 3, 1));
+            if (type[0] == 's')
+            {
+                source->getLight()->setDirection(osg::Vec3(-0.1f, 0.1f, -1));
+                source->getLight()->setSpotCutoff(60.0f);
+            }
+            scaled->addChild(source);
+            support::CameraSpec camera = support::CameraSpec::perspective(
+                osg::Vec3d(1, -9, 6) * unit, {0, 0, 0}, {0, 0, 1}, 45.0, 1.0, unit, 30.0 * unit);
+            scene->setShadows(Shadows::VOLUMES);
+            const osg::ref_ptr<osg::Image> exact = picture(*scene, camera);
+            scene->setShadows(Shadows::OFF);
+            const osg::ref_ptr<osg::Image> lit = picture(*scene, camera);
+            scene->setShadows(Shadows::MAP);
+            double share[2] = {};
+            for (unsigned int large : {0u, 1u})
+            {
+                scene->setMapSize(large ? 2048 : 128);
+                const osg::ref_ptr<osg::Image> mapped = picture(*scene, camera);
+                ASSERT_TRUE(mapped && exact && lit);
+                share[large] = support::difference(*mapped, *exact, 8.0 / 255.0).getShareOver();
+                support::writeImage(*mapped, std::string("map.solids.") + type +
+                                                 (large ? ".large" : ".small"));
+            }
+            support::writeImage(*exact, std::string("map.solids.") + type + ".volumes");
+            std::printf("[ error    ] %s, unit %g: %.3f %% of 128 texels, %.3f %% of 2048\n", type,
+                        unit, 100.0 * share[0], 100.0 * share[1]);
+            EXPECT_GT(support::difference(*exact, *lit, 8.0 / 255.0).getShareOver(), 0.03);
+            // Facets of the balls that look away from the light differ by the offset of the map.
+            EXPECT_LT(share[1], 0.005) << type << ", " << unit;
+            EXPECT_LT(share[1], 0.5 * share[0]) << type << ", " << unit;
+        }
+}
+
+TEST(MapShadows, aSecondContextWithSamplesHasMapsOfItsOwn)
+{
+    OSGKITS_NEED_GL(viewer());
+    osg::ref_ptr<ShadowedScene> scene = shadowed();
+    scene->addChild(floorGeode());
+    scene->addChild(occluder(1.0));
+    scene->addChild(lightSource(0, osg::Vec4(2.2f, 0.3f, 1, 0)));
+    const osg::ref_ptr<osg::Image> first = picture(*scene, fromAbove());
+    support::HeadlessSettings settings{Width, Height};
+    settings.samples = 4;
+    {
+        support::HeadlessViewer other(settings);
+        OSGKITS_NEED_GL(other);
+        other.getViewer().setLightingMode(osg::View::NO_LIGHT);
+        const osg::ref_ptr<osg::Image> second = other.render(scene, fromAbove(), Width, Height, 2);
+        ASSERT_TRUE(first && second);
+        // Edges of the square alone are smooth: 8 units of 32 pixels, in part against the shadow.
+        EXPECT_LT(support::difference(*first, *second, 2.0 / 255.0).getShareOver(), 0.01);
+    }
+    viewer().getViewer().getCamera()->getGraphicsContext()->makeCurrent();
+    const osg::ref_ptr<osg::Image> again = picture(*scene, fromAbove());
+    ASSERT_TRUE(again);
+    EXPECT_EQ(support::difference(*first, *again, 0.0).pixelsOver, 0u);
 }
 
 TEST(MapShadows, noMapsAreMadeWithoutACaster)

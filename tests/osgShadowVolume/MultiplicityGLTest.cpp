@@ -97,7 +97,7 @@ class MultiplicityGLTest : public testing::Test
 protected:
     /// What the program says of the geometry, one value a corner of each triangle that it draws.
     std::vector<float> record(VolumePart part, int glslVersion, osg::Geometry* geometry,
-                              const EdgeMesh& edges, const glm::vec4& light)
+                              const EdgeMesh& edges, const MeshLight& light)
     {
         osg::ref_ptr<osg::Program> program = makeVolumeProgram(part, glslVersion);
         program->addTransformFeedBackVarying("osgsv_multiplicity");
@@ -107,7 +107,10 @@ protected:
         osg::StateSet* state = recorder->getOrCreateStateSet();
         state->setAttributeAndModes(program);
         state->addUniform(
-            new osg::Uniform("osgsv_localLight", osg::Vec4(light.x, light.y, light.z, light.w)));
+            new osg::Uniform("osgsv_localLight", osg::Vec4(light.light.x, light.light.y,
+                                                           light.light.z, light.light.w)));
+        state->addUniform(new osg::Uniform(
+            "osgsv_lightRest", osg::Vec3(light.rest.x, light.rest.y, light.rest.z)));
         state->addUniform(new osg::Uniform("osgsv_meshScale", edges.scale));
         state->addUniform(new osg::Uniform("osgsv_handedness", 1.0f));
         support::NotifyCapture capture;
@@ -121,7 +124,7 @@ protected:
 
 /// What the CPU finds for the group, each value that is not 0 six times: a quad is two triangles.
 std::vector<float> expectedSides(const EdgeMesh& edges, const EdgeMesh::Group& group,
-                                 const glm::vec4& light)
+                                 const MeshLight& light)
 {
     std::vector<float> expected;
     for (std::size_t at = 0; at != group.indices.size(); at += 2 + group.opposites)
@@ -132,7 +135,7 @@ std::vector<float> expectedSides(const EdgeMesh& edges, const EdgeMesh::Group& g
 }
 
 /// The same for the pairs of opposite vertices that lines with adjacency are made of.
-std::vector<float> expectedPairs(const EdgeMesh& edges, const glm::vec4& light)
+std::vector<float> expectedPairs(const EdgeMesh& edges, const MeshLight& light)
 {
     EdgeMesh::Group pairs{2, {}};
     for (const EdgeMesh::Group& group : edges.groups)
@@ -148,13 +151,13 @@ std::vector<float> expectedPairs(const EdgeMesh& edges, const glm::vec4& light)
     return expectedSides(edges, pairs, light);
 }
 
-std::vector<float> expectedCaps(const EdgeMesh& edges, const glm::vec4& light)
+std::vector<float> expectedCaps(const EdgeMesh& edges, const MeshLight& light)
 {
     std::vector<float> expected;
     for (const glm::uvec3& t : edges.triangles)
         if (const int side = facing(edges.vertices[t.x], edges.vertices[t.y], edges.vertices[t.z],
                                     light, edges.scale))
-            expected.insert(expected.end(), light.w == 0.0f ? 3 : 6, float(side));
+            expected.insert(expected.end(), light.light.w == 0.0f ? 3 : 6, float(side));
     return expected;
 }
 
@@ -192,7 +195,7 @@ TEST_F(MultiplicityGLTest, allTechniquesFindWhatTheCPUFinds)
         const EdgeMesh& edges = mesh->getEdges();
         for (const glm::dvec4& worldLight : hard.lights)
         {
-            const glm::vec4 light = toMeshLight(edges, worldLight);
+            const MeshLight light = toMeshLight(edges, worldLight);
             SCOPED_TRACE(hard.name);
             for (std::size_t i = 0; i != edges.groups.size(); ++i)
             {

@@ -28,6 +28,8 @@ const std::map<std::string, std::string> Changed = {{"shadows", "map"},
                                                     {"mirrors", "off"}, {"maxmirrors", "9"}, {"keys", "off"},
                                                     {"metres", "0.0254"},
                                                     {"maxlux", "1e+30"},
+                                                    {"candela", "800"},
+                                                    {"lux", "90000"},
                                                     {"lighting", "vertex"},
                                                     {"lights", "all"},
                                                     {"tolerance", "0.1"}};
@@ -81,6 +83,8 @@ TEST(SceneOptionsTest, settingsArriveInTheScene)
     EXPECT_FALSE(scene->getKeys());
     EXPECT_EQ(scene->getMetresPerUnit(), 0.0254);
     EXPECT_EQ(scene->getIlluminanceMaximum(), 1e30);
+    EXPECT_EQ(scene->getCandela(), 800.0);
+    EXPECT_EQ(scene->getLux(), 90000.0);
     EXPECT_EQ(scene->getLighting(), LitScene::Lighting::VERTEX);
     EXPECT_EQ(scene->getLightScope(), LitScene::LightScope::ALL);
     EXPECT_EQ(scene->getLightTolerance(), 0.1);

@@ -204,8 +204,8 @@ TEST(ShadowHull, boxesThatTouchNothingAreMostlyLeftOut)
         "those that touch\n",
         100.0 * share, apart, 100.0 * needless / (needless + touching));
     ASSERT_GT(apart, 10000u);
-    // Only pairs that a cross of two edges alone separates are missed.
-    EXPECT_LT(share, 0.03);
+    // A pair within the margin of each other, or a flat box that lies aslant beside an edge.
+    EXPECT_LT(share, 0.001);
 }
 
 TEST(ShadowHull, aCasterBehindTheLightOrBehindTheReceiversIsLeftOut)

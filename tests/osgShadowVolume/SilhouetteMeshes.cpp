@@ -226,7 +226,7 @@ HardCase moebiusStrip(unsigned int steps)
     return hard;
 }
 
-std::size_t openVertices(const EdgeMesh& mesh, const glm::vec4& light)
+std::size_t openVertices(const EdgeMesh& mesh, const MeshLight& light)
 {
     std::vector<int> sums(mesh.vertices.size());
     for (const EdgeMesh::Group& group : mesh.groups)

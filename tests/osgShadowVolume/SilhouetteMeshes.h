@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgShadowVolume/EdgeMesh.h>
+#include <osgShadowVolume/Silhouette.h>
 
 #include <glm/glm.hpp>
 
@@ -35,4 +36,4 @@ HardCase book(unsigned int count);
 HardCase moebiusStrip(unsigned int steps);
 
 /// Vertices at which the signed multiplicities of the edges do not sum to 0: leaks.
-std::size_t openVertices(const osgShadowVolume::EdgeMesh& mesh, const glm::vec4& light);
+std::size_t openVertices(const osgShadowVolume::EdgeMesh& mesh, const osgShadowVolume::MeshLight& light);

@@ -25,14 +25,14 @@ int signOf(double value)
 
 /// The exact sign: the products of three differences of floats within 2^±12 of each other fit into
 /// 113 bits, or nearly so.
-int exactFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec4& light)
+int exactFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const MeshLight& light)
 {
     using Real = __float128;
     Real u[3], v[3], e[3];
     for (int i = 0; i < 3; ++i)
     {
         u[i] = Real(c[i]) - Real(a[i]);
-        v[i] = Real(light[i]) - Real(a[i]) * Real(light.w);
+        v[i] = Real(light.light[i]) + Real(light.rest[i]) - Real(a[i]) * Real(light.light.w);
         e[i] = Real(b[i]) - Real(a[i]);
     }
     const Real side = (u[1] * v[2] - u[2] * v[1]) * e[0] + (u[2] * v[0] - u[0] * v[2]) * e[1] +
@@ -41,13 +41,13 @@ int exactFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, cons
 }
 
 /// As facing(), but as a compiler may contract it.
-int fusedFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec4& light,
+int fusedFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const MeshLight& light,
                 float scale)
 {
     const glm::vec3 u = (c - a) * scale, e = (b - a) * scale;
     glm::vec3 v;
     for (int i = 0; i < 3; ++i)
-        v[i] = std::fma(-a[i], light.w, light[i]);
+        v[i] = std::fma(-a[i], light.light.w, light.light[i]) + light.rest[i];
     const glm::vec3 n(std::fma(u.y, v.z, -(u.z * v.y)), std::fma(u.z, v.x, -(u.x * v.z)),
                       std::fma(u.x, v.y, -(u.y * v.x)));
     return signOf(std::fma(n.z, e.z, std::fma(n.y, e.y, n.x * e.x)));
@@ -55,14 +55,14 @@ int fusedFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, cons
 
 /// Judged in the order of the edge's own ends, as older programs do.
 int edgeOrderFacing(const glm::vec3& a, const glm::vec3& b, const glm::vec3& o,
-                    const glm::vec4& light)
+                    const MeshLight& light)
 {
-    const glm::vec3 v = glm::vec3(light) - a * light.w;
+    const glm::vec3 v = (glm::vec3(light.light) - a * light.light.w) + light.rest;
     return signOf(glm::dot(glm::cross(b - a, o - a), v));
 }
 
 /// Vertices that stay open where each edge judges for itself.
-std::size_t openByEdgeOrder(const EdgeMesh& mesh, const glm::vec4& light)
+std::size_t openByEdgeOrder(const EdgeMesh& mesh, const MeshLight& light)
 {
     std::vector<int> sums(mesh.vertices.size());
     for (const glm::uvec3& t : mesh.triangles)
@@ -115,11 +115,11 @@ void expectClosed(const HardCase& hard)
     const EdgeMesh mesh = hard.build();
     for (const glm::dvec4& light : hard.lights)
     {
-        const glm::vec4 l = toMeshLight(mesh, light);
+        const MeshLight l = toMeshLight(mesh, light);
         EXPECT_EQ(openVertices(mesh, l), 0u) << hard.name;
     }
-    const glm::vec4 l = toMeshLight(mesh, hard.lights.front());
-    EXPECT_EQ(openEdges(mesh, silhouetteOf(mesh, l, 1), l.w == 0.0f), 0u) << hard.name;
+    const MeshLight l = toMeshLight(mesh, hard.lights.front());
+    EXPECT_EQ(openEdges(mesh, silhouetteOf(mesh, l, 1), l.light.w == 0.0f), 0u) << hard.name;
 }
 
 HardCase scaled(HardCase hard, double factor)
@@ -137,16 +137,16 @@ HardCase scaled(HardCase hard, double factor)
 TEST(SilhouetteTest, aTriangleFacesWhoSeesItCounterclockwise)
 {
     const glm::vec3 a(0, 0, 0), b(1, 0, 0), c(0, 1, 0);
-    EXPECT_EQ(facing(a, b, c, {0, 0, 1, 0}, 1.0f), 1);
-    EXPECT_EQ(facing(a, b, c, {0, 0, -1, 0}, 1.0f), -1);
-    EXPECT_EQ(facing(a, b, c, {3, 4, 0, 1}, 1.0f), 0);
-    EXPECT_EQ(facing(a, b, c, {3, 4, 5, 1}, 1.0f), 1);
+    EXPECT_EQ(facing(a, b, c, {{0, 0, 1, 0}, {}}, 1.0f), 1);
+    EXPECT_EQ(facing(a, b, c, {{0, 0, -1, 0}, {}}, 1.0f), -1);
+    EXPECT_EQ(facing(a, b, c, {{3, 4, 0, 1}, {}}, 1.0f), 0);
+    EXPECT_EQ(facing(a, b, c, {{3, 4, 5, 1}, {}}, 1.0f), 1);
 }
 
 TEST(SilhouetteTest, notANumberIsNoSide)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 1, 0}, 1.0f), 0);
+    EXPECT_EQ(facing({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {{nan, 0, 1, 0}, {}}, 1.0f), 0);
 }
 
 TEST(SilhouetteTest, aTriangleHasAVolumeOfThreeSidesAndTwoCaps)
@@ -154,14 +154,14 @@ TEST(SilhouetteTest, aTriangleHasAVolumeOfThreeSidesAndTwoCaps)
     EdgeMeshBuilder builder;
     builder.addTriangle({0, 0, 0}, {0, 1, 0}, {1, 0, 0});
     const EdgeMesh mesh = builder.build();
-    const Silhouette point = silhouetteOf(mesh, {0.2f, 0.2f, 1, 1}, 1);
+    const Silhouette point = silhouetteOf(mesh, {{0.2f, 0.2f, 1, 1}, {}}, 1);
     ASSERT_EQ(point.sides.size(), 1u);
     EXPECT_EQ(point.sides[0].weight, 1u);
     EXPECT_EQ(point.sides[0].indices.size(), 3u * 6u);
     // Vertices ascend, so the light above sees 0, 1, 2 clockwise.
     EXPECT_EQ(point.nearCaps, (std::vector<std::uint32_t>{0, 2, 1}));
     EXPECT_EQ(point.farCaps, (std::vector<std::uint32_t>{4, 5, 3}));
-    const Silhouette directional = silhouetteOf(mesh, {0, 0, 1, 0}, 1);
+    const Silhouette directional = silhouetteOf(mesh, {{0, 0, 1, 0}, {}}, 1);
     EXPECT_EQ(directional.sides[0].indices.size(), 3u * 3u);
     EXPECT_TRUE(directional.farCaps.empty());
 }
@@ -171,13 +171,13 @@ TEST(SilhouetteTest, trianglesOnOneSideOfAnEdgeAddUp)
     HardCase hard = book(5);
     const EdgeMesh mesh = hard.build();
     std::map<std::uint32_t, std::size_t> triangles;
-    for (const Silhouette::Sides& sides : silhouetteOf(mesh, {100, 1, 0.3f, 1}, 1).sides)
+    for (const Silhouette::Sides& sides : silhouetteOf(mesh, {{100, 1, 0.3f, 1}, {}}, 1).sides)
         triangles[sides.weight] = sides.indices.size() / 3;
     // Three pages on one side of the spine, two on the other: it counts once, as each outer edge.
     EXPECT_EQ(triangles[1], 2u * 11u);
     HardCase twice = hard;
     twice.triangles.insert(twice.triangles.end(), hard.triangles.begin(), hard.triangles.end());
-    const Silhouette doubled = silhouetteOf(twice.build(), {100, 1, 0.3f, 1}, 1);
+    const Silhouette doubled = silhouetteOf(twice.build(), {{100, 1, 0.3f, 1}, {}}, 1);
     ASSERT_EQ(doubled.sides.size(), 1u);
     EXPECT_EQ(doubled.sides[0].weight, 2u);
 }
@@ -245,12 +245,14 @@ TEST(SilhouetteTest, lightsOfAnySizeStayFinite)
     const EdgeMesh mesh = book(3).build();
     for (const double size : {1e-300, 1e-30, 1.0, 1e30, 1e300})
     {
-        const glm::vec4 light = toMeshLight(mesh, glm::dvec4(size, 2 * size, 3 * size, size));
-        EXPECT_GT(std::max({light.x, light.y, light.z, light.w}), 0.1f) << size;
-        EXPECT_LT(std::max({light.x, light.y, light.z, light.w}), 10.0f) << size;
-        EXPECT_NEAR(light.y / light.x, 2.0, 1e-6);
+        const MeshLight light = toMeshLight(mesh, glm::dvec4(size, 2 * size, 3 * size, size));
+        EXPECT_GT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 0.1f)
+            << size;
+        EXPECT_LT(std::max({light.light.x, light.light.y, light.light.z, light.light.w}), 10.0f)
+            << size;
+        EXPECT_NEAR(light.light.y / light.light.x, 2.0, 1e-6);
     }
-    EXPECT_EQ(toMeshLight(mesh, {1e60, 0, 0, 1}).w, 0.0f);
+    EXPECT_EQ(toMeshLight(mesh, {1e60, 0, 0, 1}).light.w, 0.0f);
 }
 
 TEST(SilhouetteTest, judgingInTheOrderOfEdgesLeaks)
@@ -273,7 +275,7 @@ TEST(SilhouetteTest, oneContractedProgramAmongOthersDisagrees)
     for (const glm::dvec4& light : wall.lights)
         for (const glm::uvec3& t : mesh.triangles)
         {
-            const glm::vec4 l = toMeshLight(mesh, light);
+            const MeshLight l = toMeshLight(mesh, light);
             const glm::vec3 &a = mesh.vertices[t.x], &b = mesh.vertices[t.y],
                             &c = mesh.vertices[t.z];
             differs += facing(a, b, c, l, mesh.scale) != fusedFacing(a, b, c, l, mesh.scale);
@@ -292,7 +294,7 @@ TEST(SilhouetteTest, wrongSignsAreRareAndOnlyWhereTheLightIsInThePlane)
             double worst = 0.0;
             for (const glm::dvec4& light : hard.lights)
             {
-                const glm::vec4 l = toMeshLight(mesh, light);
+                const MeshLight l = toMeshLight(mesh, light);
                 for (const glm::uvec3& t : mesh.triangles)
                 {
                     const glm::vec3 &a = mesh.vertices[t.x], &b = mesh.vertices[t.y],
@@ -302,7 +304,8 @@ TEST(SilhouetteTest, wrongSignsAreRareAndOnlyWhereTheLightIsInThePlane)
                     ++wrong;
                     // The determinant over the product of the vectors' lengths: 1 for a corner of a
                     // cube.
-                    const glm::dvec3 v = glm::dvec3(l) - glm::dvec3(a) * double(l.w);
+                    const glm::dvec3 v = glm::dvec3(l.light) + glm::dvec3(l.rest) -
+                                         glm::dvec3(a) * double(l.light.w);
                     const glm::dvec3 u = glm::dvec3(c) - glm::dvec3(a);
                     const glm::dvec3 e = glm::dvec3(b) - glm::dvec3(a);
                     worst = std::max(worst, std::abs(glm::dot(glm::cross(u, v), e)) /
@@ -323,7 +326,7 @@ TEST(SilhouetteTest, theNumberOfThreadsMakesNoDifference)
 {
     const HardCase hard = grazingTriangles(300000);
     const EdgeMesh mesh = hard.build();
-    const glm::vec4 light = toMeshLight(mesh, hard.lights[0]);
+    const MeshLight light = toMeshLight(mesh, hard.lights[0]);
     const Silhouette one = silhouetteOf(mesh, light, 1);
     for (const unsigned int threads : {0u, 2u, 3u, 7u})
     {
@@ -341,7 +344,7 @@ TEST(SilhouetteTest, theNumberOfThreadsMakesNoDifference)
 
 TEST(SilhouetteTest, anEmptyMeshHasNone)
 {
-    const Silhouette silhouette = silhouetteOf(EdgeMesh(), {0, 0, 1, 1}, 4);
+    const Silhouette silhouette = silhouetteOf(EdgeMesh(), {{0, 0, 1, 1}, {}}, 4);
     EXPECT_TRUE(silhouette.sides.empty());
     EXPECT_TRUE(silhouette.nearCaps.empty());
 }

@@ -60,5 +60,7 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_ShadowedScene, new osgShadowVolume::Shad
     ADD_BOOL_SERIALIZER(Keys, defaults.keys);
     ADD_DOUBLE_SERIALIZER(MetresPerUnit, defaults.metresPerUnit);
     ADD_DOUBLE_SERIALIZER(IlluminanceMaximum, defaults.illuminanceMaximum);
+    ADD_DOUBLE_SERIALIZER(Candela, defaults.candela);
+    ADD_DOUBLE_SERIALIZER(Lux, defaults.lux);
     wrapper->addFinishedObjectReadCallback(new RangeCheck);
 }
