@@ -135,7 +135,9 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                     toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
                 {
                     decision.casters.push_back(i);
-                    decision.needsZFail.push_back(_isClipped || toNear.mayTouch(boxes[i]));
+                    // z-pass leaves out the near cap, which lies in a surface that hides what is behind.
+                    decision.needsZFail.push_back(_isClipped || _casters[i].seenThrough ||
+                                                  toNear.mayTouch(boxes[i]));
                 }
             const bool castsPastNear =
                 std::find(decision.needsZFail.begin(), decision.needsZFail.end(), true) !=
