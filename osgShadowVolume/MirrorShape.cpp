@@ -106,7 +106,13 @@ std::optional<MirrorShape> fitMirror(const std::vector<glm::dvec3>& triangles, s
         const glm::dvec2 at(glm::dot(d, u), glm::dot(d, v));
         low = glm::min(low, at);
         high = glm::max(high, at);
-        off = std::max(off, std::abs(glm::dot(d, normal)));
+        const double distance = std::abs(glm::dot(d, normal));
+        if (!std::isfinite(distance)) // std::max would pass over a NaN
+        {
+            error = "not finite";
+            return std::nullopt;
+        }
+        off = std::max(off, distance);
         for (int axis = 0; axis < 3; ++axis)
             far = std::max(far, std::abs(point[axis]));
     }

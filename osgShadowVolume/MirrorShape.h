@@ -21,7 +21,7 @@ struct MirrorShape
     double tolerance = 0.0; ///< How far points of the surface may lie off the plane.
 
     /// The same in other coordinates. `matrix` is affine.
-    MirrorShape transformed(const glm::dmat4& matrix) const;
+    OSGSHADOWVOLUME_EXPORT MirrorShape transformed(const glm::dmat4& matrix) const;
 };
 
 /// The shape of triangles, three points each. Empty where they have no area or do not lie in one

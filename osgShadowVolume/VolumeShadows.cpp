@@ -2,6 +2,7 @@
 #include <osgShadowVolume/VolumeShadows.h>
 
 #include <osgShadowVolume/CasterDraw.h>
+#include <osgShadowVolume/DepthBounds.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
@@ -227,7 +228,10 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
         state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
         glClear(GL_COLOR_BUFFER_BIT);
-        drawVolumes(renderInfo, light);
+        {
+            const DepthBounds depths(state, bounds.nearDepth, bounds.farDepth);
+            drawVolumes(renderInfo, light);
+        }
         _targets->bindMask(state, layer, word);
         resolve(renderInfo, index % 32);
         state.popStateSet();
