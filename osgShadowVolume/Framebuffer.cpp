@@ -5,6 +5,10 @@
 #include <osg/FrameBufferObject>
 #include <osg/GLObjects>
 
+#ifndef GL_FRAMEBUFFER_FLIP_Y_MESA
+#define GL_FRAMEBUFFER_FLIP_Y_MESA 0x8BBB
+#endif
+
 namespace osgShadowVolume
 {
 
@@ -35,11 +39,20 @@ Framebuffer::~Framebuffer()
 void Framebuffer::bind(osg::State& state, bool color)
 {
     const auto* gl = state.get<osg::GLExtensions>();
-    if (!_id)
+    const bool isNew = !_id;
+    if (isNew)
         gl->glGenFramebuffers(1, &_id);
     gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, _id);
+    if (isNew && _flipped)
+        gl->glFramebufferParameteri(GL_FRAMEBUFFER_EXT, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
     glDrawBuffer(color ? GL_COLOR_ATTACHMENT0_EXT : GL_NONE);
     glReadBuffer(GL_NONE);
+}
+
+bool Framebuffer::canFlip(const osg::State& state)
+{
+    return state.get<osg::GLExtensions>()->glFramebufferParameteri &&
+           osg::isGLExtensionSupported(state.getContextID(), "GL_MESA_framebuffer_flip_y");
 }
 
 void Framebuffer::releaseGLObjects(osg::State* state) const

@@ -11,7 +11,11 @@ namespace osgShadowVolume
 class Framebuffer
 {
 public:
-    explicit Framebuffer(unsigned int contextID) : _contextID(contextID) {}
+    /// `flipped`: its rows count from the top, as in windows of Mesa. Needs canFlip().
+    explicit Framebuffer(unsigned int contextID, bool flipped = false)
+        : _contextID(contextID), _flipped(flipped)
+    {
+    }
     /// Deletes it when the context is current next.
     ~Framebuffer();
     Framebuffer(const Framebuffer&) = delete;
@@ -21,8 +25,11 @@ public:
     void bind(osg::State& state, bool color);
     void releaseGLObjects(osg::State* state) const;
 
+    static bool canFlip(const osg::State& state);
+
 private:
     const unsigned int _contextID;
+    const bool _flipped;
     mutable GLuint _id = 0;
 };
 

@@ -8,8 +8,9 @@ namespace osgShadowVolume
 {
 
 ShadowTargets::ShadowTargets(unsigned int contextID, const TargetLayout& layout)
-    : osg::Referenced(true), _layout(layout), _depth(contextID), _layer(contextID),
-      _counting(contextID), _masking(contextID)
+    : osg::Referenced(true), _layout(layout), _depth(contextID, layout.flipped),
+      _layer(contextID, layout.flipped), _counting(contextID, layout.flipped),
+      _masking(contextID, layout.flipped)
 {
     const auto make = [&](GLenum format, int layers)
     { return new TargetTexture(format, layout.width, layout.height, layers, layout.samples); };

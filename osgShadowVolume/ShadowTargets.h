@@ -14,13 +14,14 @@ struct TargetLayout
 {
     int width = 0, height = 0; ///< Pixels, to the upper right corner of the viewport.
     int samples = 1;
-    int words = 1;  ///< 32 lights each.
-    int layers = 0; ///< Transparent layers.
+    int words = 1;        ///< 32 lights each.
+    int layers = 0;       ///< Transparent layers.
+    bool flipped = false; ///< Rows count from the top.
 
     bool operator==(const TargetLayout& other) const
     {
         return width == other.width && height == other.height && samples == other.samples &&
-               words == other.words && layers == other.layers;
+               words == other.words && layers == other.layers && flipped == other.flipped;
     }
 };
 
@@ -40,6 +41,8 @@ public:
     ShadowTargets(unsigned int contextID, const TargetLayout& layout);
 
     const TargetLayout& getLayout() const { return _layout; }
+    /// For the shaders: the height where rows count from the top, else 0.
+    int getFlippedHeight() const { return _layout.flipped ? _layout.height : 0; }
     std::size_t getBytes() const;
 
     /// Binds the framebuffer for the opaque surfaces' depths; no colour.

@@ -65,6 +65,12 @@ void VolumeShadows::begin(osg::RenderInfo& renderInfo)
     GLint samples = 0;
     glGetIntegerv(GL_SAMPLES, &samples);
     _tier.samples = std::max(1, samples);
+    // Mesa draws windows upside down, and so their samples lie elsewhere in a pixel than those of
+    // framebuffer objects.
+    GLint framebuffer = 0;
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &framebuffer);
+    _isFlipped =
+        _tier.samples > 1 && framebuffer == 0 && Framebuffer::canFlip(*renderInfo.getState());
     const float version = std::min(gl->glVersion, gl->glslLanguageVersion);
     _tier.language = std::clamp(int(std::lround(version * 100.0f)), 330, 450);
     const bool hasPrecise =
@@ -107,6 +113,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     layout.width = viewport[0] + viewport[2];
     layout.height = viewport[1] + viewport[3];
     layout.samples = _tier.samples;
+    layout.flipped = _isFlipped;
     layout.words = (lights + 31) / 32;
     layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
     _targets = _resources.targets.acquire(_contextID, layout);
@@ -172,6 +179,7 @@ bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getDepth(layer - 1),
                                 osg::StateAttribute::OVERRIDE);
     inputs->addUniform(new osg::Uniform("osgsv_layer", layer));
+    inputs->addUniform(new osg::Uniform("osgsv_flippedHeight", _targets->getFlippedHeight()));
     GLuint query = 0;
     gl->glGenQueries(1, &query);
     gl->glBeginQuery(GL_SAMPLES_PASSED_ARB, query);
@@ -193,6 +201,7 @@ void VolumeShadows::resolve(osg::RenderInfo& renderInfo, int bit)
     osg::ref_ptr<osg::StateSet> inputs = new osg::StateSet;
     inputs->setTextureAttribute(ShadowTargets::DepthUnit, _targets->getCounter());
     inputs->addUniform(new osg::Uniform("osgsv_bit", bit));
+    inputs->addUniform(new osg::Uniform("osgsv_flippedHeight", _targets->getFlippedHeight()));
     state.pushStateSet(&_resources.passes.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
     state.pushStateSet(inputs);
     state.apply();
@@ -298,7 +307,8 @@ void VolumeShadows::apply(const osg::Program::PerContextProgram& program,
 {
     static const unsigned int size = osg::Uniform::getNameID("osgsv_maskSize");
     if (_targets)
-        gl.glUniform2i(program.getUniformLocation(size), _targets->getLayout().words, _layers);
+        gl.glUniform3i(program.getUniformLocation(size), _targets->getLayout().words, _layers,
+                       _targets->getFlippedHeight());
 }
 
 std::uint32_t VolumeShadows::getVariantBits() const

@@ -53,6 +53,7 @@ private:
     ShadowResources& _resources;
     Technique _technique = Technique::CPU; ///< Of those that the context has.
     ShadowPasses::Tier _tier;
+    bool _isFlipped = false; ///< The target's samples lie upside down.
     osg::ref_ptr<ShadowTargets> _targets;
     unsigned int _contextID = 0;
     unsigned int _frameNumber = 0;

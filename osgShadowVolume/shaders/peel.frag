@@ -4,14 +4,21 @@
 #if OSGSV_SAMPLES > 1
 uniform sampler2DMS osgsv_depth;       // of the last layer
 uniform sampler2DMS osgsv_opaqueDepth;
-#define OSGSV_DEPTH(image) texelFetch(image, ivec2(gl_FragCoord.xy), gl_SampleID).r
+#define OSGSV_DEPTH(image) texelFetch(image, osgsv_texel(), gl_SampleID).r
 #else
 uniform sampler2D osgsv_depth;
 uniform sampler2D osgsv_opaqueDepth;
-#define OSGSV_DEPTH(image) texelFetch(image, ivec2(gl_FragCoord.xy), 0).r
+#define OSGSV_DEPTH(image) texelFetch(image, osgsv_texel(), 0).r
 #endif
 uniform int osgsv_layer;
 layout(location = 0) out vec4 osgsv_layerDepth;
+uniform int osgsv_flippedHeight; // where rows count from the top, else 0
+
+ivec2 osgsv_texel()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    return osgsv_flippedHeight > 0 ? ivec2(texel.x, osgsv_flippedHeight - 1 - texel.y) : texel;
+}
 
 void main()
 {

@@ -9,7 +9,13 @@ uniform sampler2DMSArray osgsv_layers;
 uniform usampler2DArray osgsv_mask;
 uniform sampler2DArray osgsv_layers;
 #endif
-uniform ivec2 osgsv_maskSize; // words, transparent layers
+uniform ivec3 osgsv_maskSize; // words, transparent layers, height where rows count from the top or 0
+
+ivec3 osgsv_texel(int layer)
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    return ivec3(texel.x, osgsv_maskSize.z > 0 ? osgsv_maskSize.z - 1 - texel.y : texel.y, layer);
+}
 
 #ifdef OSGSV_TRANSPARENT
 // The layer whose depth is this fragment's. Empty layers have depth 1.
@@ -19,7 +25,7 @@ int osgsv_layerOf(int s)
     float distance = 2.0;
     for (int layer = 0; layer < osgsv_maskSize.y; ++layer)
     {
-        float d = abs(texelFetch(osgsv_layers, ivec3(gl_FragCoord.xy, layer), s).r - gl_FragCoord.z);
+        float d = abs(texelFetch(osgsv_layers, osgsv_texel(layer), s).r - gl_FragCoord.z);
         if (d < distance)
         {
             distance = d;
@@ -36,7 +42,7 @@ float osgsv_sampleVisible(int index, int s)
 #ifdef OSGSV_TRANSPARENT
     layer += (1 + osgsv_layerOf(s)) * osgsv_maskSize.x;
 #endif
-    uint word = texelFetch(osgsv_mask, ivec3(gl_FragCoord.xy, layer), s).r;
+    uint word = texelFetch(osgsv_mask, osgsv_texel(layer), s).r;
     return (word & (1u << (index & 31))) != 0u ? 0.0 : 1.0;
 }
 

@@ -29,12 +29,6 @@ class ShadowPlan : public testing::Test
 protected:
     void SetUp() override { OSGKITS_NEED_GL(floorScene::viewer()); }
 
-    static Picture render(ShadowedScene& scene, const CameraSpec& camera)
-    {
-        floorScene::viewer().getViewer().getCamera()->getGraphicsContext()->makeCurrent();
-        return floorScene::picture(scene, camera);
-    }
-
     /// Draws the scene as planned, which says `expected` of light 0, and with everything drawn:
     /// both pictures are the same but for `tolerance`. Returns the picture.
     static Picture expectUnseen(const std::string& name, const CameraSpec& camera,

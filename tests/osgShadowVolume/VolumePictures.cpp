@@ -61,8 +61,25 @@ osg::ref_ptr<osg::MatrixTransform> moved(const osg::Vec3& place, osg::ref_ptr<os
 {
     osg::ref_ptr<osg::MatrixTransform> transform =
         new osg::MatrixTransform(osg::Matrix::translate(place));
-    transform->addChild(node);
+    if (node)
+        transform->addChild(node);
     return transform;
+}
+
+void addTwoBoxes(osg::Group& group)
+{
+    group.addChild(floorScene::floorGeode());
+    group.addChild(moved({1, 0.3f, 1}, box({}, 1)));
+    group.addChild(moved({-1.2f, -0.5f, 0.8f}, box({}, 0.6f)));
+    group.addChild(floorScene::lightSource(0, osg::Vec4(2.5f, 1, 5, 1), 0.5f));
+    group.addChild(floorScene::lightSource(1, osg::Vec4(-1, 0.4f, 1.3f, 0), 0.4f));
+}
+
+osg::ref_ptr<ShadowedScene> twoBoxes()
+{
+    osg::ref_ptr<ShadowedScene> scene = shadowed();
+    addTwoBoxes(*scene);
+    return scene;
 }
 
 support::CameraSpec fromFront()
@@ -112,6 +129,15 @@ testing::AssertionResult areEqual(const osg::Image* actual, const osg::Image* ex
 {
     keep(actual, name);
     return support::CompareImage{0.0, 0.0, 0.0}(actual, expected, name);
+}
+
+osg::ref_ptr<osg::Image> render(osg::Node& scene, const support::CameraSpec& camera, int width,
+                                int height, unsigned int frames)
+{
+    // Another viewer of the test may have made its own context current.
+    support::HeadlessViewer& viewer = floorScene::viewer();
+    viewer.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
+    return viewer.render(&scene, camera, width, height, frames);
 }
 
 void keep(const osg::Image* image, const std::string& name)
