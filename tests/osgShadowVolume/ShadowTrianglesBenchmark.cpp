@@ -19,6 +19,7 @@
 #include <osg/LightSource>
 
 #include <cmath>
+#include <algorithm>
 #include <cstdio>
 
 using namespace osgShadowVolume;
