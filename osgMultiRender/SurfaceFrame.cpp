@@ -59,6 +59,7 @@ public:
         else
             _frame->drawLeaf(renderInfo, _bin, _single);
         _frame->proxyDrawn(renderInfo);
+        _frame = nullptr; // the leaf may be kept longer
         // The next leaf starts from our StateGraph.
         osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
         if (_dynamic)
@@ -79,12 +80,14 @@ public:
     bool supports(const osg::PrimitiveFunctor&) const override { return true; }
     void accept(osg::PrimitiveFunctor& functor) const override
     {
-        for (const osgUtil::RenderLeaf* leaf : _frame->getLeaves(_bin))
-            leaf->_drawable->accept(functor);
+        osg::ref_ptr<SurfaceFrame> frame;
+        if (_frame.lock(frame)) // not drawn yet
+            for (const osgUtil::RenderLeaf* leaf : frame->getLeaves(_bin))
+                leaf->_drawable->accept(functor);
     }
 
 private:
-    osg::ref_ptr<SurfaceFrame> _frame;
+    osg::observer_ptr<SurfaceFrame> _frame;
     std::size_t _bin;
 };
 
@@ -150,7 +153,8 @@ SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
 
 SurfaceFrame::~SurfaceFrame() = default;
 
-void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
+std::vector<osg::ref_ptr<osgUtil::RenderLeaf>>
+SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
 {
     for (const auto& [order, stage] : _private->getPreRenderList())
         _stage->addPreRenderStage(stage.get(), order);
@@ -160,11 +164,13 @@ void SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
     _stage->setClearColor(_private->getClearColor());
     _stage->setClearMask(_private->getClearMask());
     mirror(graph, *_private, *_bin);
+    return std::move(_made);
 }
 
 void SurfaceFrame::addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy)
 {
     graph.addLeaf(proxy);
+    _made.push_back(proxy);
     ++_proxies;
 }
 
@@ -205,7 +211,7 @@ void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from
 }
 
 void SurfaceFrame::forEachLight(
-    const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const
+    const std::function<void(const osg::Light&, const osg::Matrix*, bool isHeadlight)>& f) const
 {
     const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post)
     {
@@ -214,9 +220,9 @@ void SurfaceFrame::forEachLight(
         const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix)
         {
             if (!post)
-                return f(light, matrix);
+                return f(light, matrix, !matrix);
             const osg::Matrix product = matrix ? *matrix * *post : *post;
-            f(light, &product);
+            f(light, &product, !matrix);
         };
         for (const auto& [attribute, matrix] : container->getAttrMatrixList())
         {
@@ -371,6 +377,12 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         return;
     _prepared = true;
     osg::State& state = *renderInfo.getState();
+    // After the stage of a camera drawn before, osg::State may have gone back to its default.
+    if (const osg::Viewport* viewport = _stage->getViewport())
+    {
+        viewport->apply(state);
+        state.haveAppliedAttribute(viewport);
+    }
     const auto* gl = state.get<osg::GLExtensions>();
     _languageVersion = gl->glslLanguageVersion;
     // Some drivers tell of a newer language than their version of GL goes with.
@@ -402,7 +414,7 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     else
     {
         forEachLight(
-            [this](const osg::Light& light, const osg::Matrix*)
+            [this](const osg::Light& light, const osg::Matrix*, bool)
             {
                 if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
                     _lights[light.getLightNum()] = &light;

@@ -41,15 +41,19 @@ public:
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
-    /// After the traversal: puts proxies into the bins of the view, below `graph`.
-    void insertProxies(osgUtil::StateGraph& graph);
+    /// After the traversal: puts proxies into the bins of the view, below `graph`, and returns
+    /// them. OSG looks at the last leaf drawn when the stage is done and its StateGraphs are
+    /// empty: the proxies have to be kept until the stage is culled again.
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> insertProxies(osgUtil::StateGraph& graph);
 
     /// The stage of the view, which holds the positioned lights.
     const osgUtil::RenderStage& getStage() const { return *_stage; }
 
     /// Calls `f` for each light positioned in this view, in the order in which GL gets them, with
-    /// its matrix to eye coordinates (null for identity).
-    void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*)>& f) const;
+    /// its matrix to eye coordinates (null for identity). The viewer's headlight has no place in
+    /// the scene; in a picture inside of the view it has a matrix like any other.
+    void forEachLight(const std::function<void(const osg::Light&, const osg::Matrix*,
+                                               bool isHeadlight)>& f) const;
 
     /// Box of all leaves that have a bound, in eye coordinates times `matrix`; invalid for none.
     /// Leaves without a bound make it infinite in fact: then `unbounded` is set.
@@ -107,6 +111,7 @@ private:
     std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
     std::vector<bool> _isOrdered; ///< One a bin: by depth or traversal, one proxy a leaf.
     std::size_t _proxies = 0;     ///< Still to be drawn.
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _made;
 
     bool _prepared = false;
     float _languageVersion = 0.0f;

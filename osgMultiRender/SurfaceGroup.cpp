@@ -54,6 +54,9 @@ public:
     /// `stage` owns the gate.
     explicit LightGate(osgUtil::RenderStage& stage) : _stage(stage) {}
 
+    /// Keeps leaves as long as the stage has its pre-render stages: until its next cull.
+    void keep(std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> leaves) { _kept = std::move(leaves); }
+
     void draw(osg::RenderInfo&, osgUtil::RenderLeaf*&) override
     {
         withholdExtraLights(_stage.getInheritedPositionalStateContainer());
@@ -62,6 +65,7 @@ public:
 
 private:
     osgUtil::RenderStage& _stage;
+    std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _kept;
 };
 
 /// What pushScope() marks the StateGraphs in use with; these are emptied before each traversal.
@@ -111,15 +115,15 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
 {
     osgUtil::RenderBin* bin = visitor.getCurrentRenderBin();
     osg::ref_ptr<SurfaceFrame> frame = new SurfaceFrame(*this, *bin, *new PrivateStage);
-    bin->getStage()->addPreRenderStage(new LightGate(*bin->getStage()),
-                                       std::numeric_limits<int>::min());
+    osg::ref_ptr<LightGate> gate = new LightGate(*bin->getStage());
+    bin->getStage()->addPreRenderStage(gate, std::numeric_limits<int>::min());
     osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     osg::Group::traverse(visitor);
     frame->getPass().cull(visitor, *this);
     visitor.setCurrentRenderBin(bin);
     visitor.popStateSet();
-    frame->insertProxies(proxies);
+    gate->keep(frame->insertProxies(proxies));
 }
 
 osgUtil::StateGraph& SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)

@@ -6,7 +6,9 @@
 #include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/ClearNode>
+#include <osg/Depth>
 #include <osg/LightSource>
+#include <osg/PolygonMode>
 #include <osg/Projection>
 #include <osgUtil/CullVisitor>
 
@@ -110,24 +112,53 @@ void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
 {
     using osg::StateAttribute;
     // As osg::State: what comes later wins, unless what was before overrides it unprotected.
-    const StateAttribute::GLModeValue blend = stateSet.getMode(GL_BLEND);
-    if (!(blend & StateAttribute::INHERIT) &&
-        (!(state.blend & StateAttribute::OVERRIDE) || (blend & StateAttribute::PROTECTED)))
-        state.blend = blend;
-    if (const auto* pair = stateSet.getAttributePair(StateAttribute::MATERIAL))
-        if (!(state.materialOverride & StateAttribute::OVERRIDE) ||
-            (pair->second & StateAttribute::PROTECTED))
-        {
-            state.material = static_cast<const osg::Material*>(pair->first.get());
-            state.materialOverride = pair->second;
-        }
+    const auto addMode = [&](State::Value& mode, GLenum which)
+    {
+        const State::Value value = stateSet.getMode(which);
+        if (!(value & StateAttribute::INHERIT) &&
+            (!(mode & StateAttribute::OVERRIDE) || (value & StateAttribute::PROTECTED)))
+            mode = value;
+    };
+    const auto addAttribute = [&](State::Attribute& attribute, StateAttribute::Type type)
+    {
+        const auto* pair = stateSet.getAttributePair(type);
+        if (pair && (!(attribute.override & StateAttribute::OVERRIDE) ||
+                     (pair->second & StateAttribute::PROTECTED)))
+            attribute = {pair->first.get(), pair->second};
+    };
+    if (!stateSet.getModeList().empty())
+    {
+        addMode(state.blend, GL_BLEND);
+        addMode(state.alphaTest, GL_ALPHA_TEST);
+        addMode(state.cullFace, GL_CULL_FACE);
+        addMode(state.depthTest, GL_DEPTH_TEST);
+    }
+    if (!stateSet.getAttributeList().empty())
+    {
+        addAttribute(state.material, StateAttribute::MATERIAL);
+        addAttribute(state.depth, StateAttribute::DEPTH);
+        addAttribute(state.polygonMode, StateAttribute::POLYGONMODE);
+    }
+}
+
+bool CasterCollector::isSeenThrough(const State& state)
+{
+    using osg::StateAttribute;
+    const auto isOn = [](State::Value mode) { return (mode & StateAttribute::ON) != 0; };
+    const auto* depth = static_cast<const osg::Depth*>(state.depth.attribute);
+    const auto* polygons = static_cast<const osg::PolygonMode*>(state.polygonMode.attribute);
+    return isOn(state.blend) || isOn(state.alphaTest) || isOn(state.cullFace) ||
+           !isOn(state.depthTest) || (depth && !depth->getWriteMask()) ||
+           (polygons &&
+            (polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+             polygons->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL));
 }
 
 bool CasterCollector::isLeftOut(const osg::Drawable& drawable, const State& state) const
 {
     if (_transparent == TransparentCasters::ALL || !(state.blend & osg::StateAttribute::ON))
         return false;
-    const float alpha = alphaOf(drawable, state.material);
+    const float alpha = alphaOf(drawable, static_cast<const osg::Material*>(state.material.attribute));
     return alpha < (_transparent == TransparentCasters::NONE ? 1.0f : 0.5f);
 }
 
@@ -191,6 +222,7 @@ void CasterCollector::apply(osg::Drawable& drawable)
     Caster& caster = casterFor(drawable);
     caster.source.push_back(&drawable);
     caster.box.expandBy(drawable.getBoundingBox());
+    caster.seenThrough = caster.seenThrough || isSeenThrough(state);
 }
 
 Caster& CasterCollector::casterFor(const osg::Drawable& drawable)

@@ -35,6 +35,9 @@ struct Caster
     osg::ref_ptr<const osg::RefMatrix> modelview; ///< Local to eye.
     osg::BoundingBox box;                         ///< Local, as the Drawables state it.
     bool dynamic = false;                         ///< Changes its vertices.
+    /// Surfaces behind it may show: it is blended, has holes by alpha test or lacks faces. Then its
+    /// lit side is not always in front of what is in its volume.
+    bool seenThrough = false;
 };
 
 /// Finds what casts shadows in a subgraph, for a view that is being culled.
@@ -97,17 +100,26 @@ private:
         osg::Transform::ReferenceFrame frame = osg::Transform::RELATIVE_RF;
         int caster = -1; ///< Index of the one of its static Geometries; -1 for none yet.
     };
-    /// What decides on transparency, of the state on the path.
+    /// What decides on whether it hides what is behind, of the state on the path.
     struct State
     {
-        osg::StateAttribute::GLModeValue blend = osg::StateAttribute::OFF;
-        const osg::Material* material = nullptr;
-        osg::StateAttribute::OverrideValue materialOverride = osg::StateAttribute::OFF;
+        using Value = osg::StateAttribute::GLModeValue;
+        Value blend = osg::StateAttribute::OFF;
+        Value alphaTest = osg::StateAttribute::OFF;
+        Value cullFace = osg::StateAttribute::OFF;
+        Value depthTest = osg::StateAttribute::OFF;
+        struct Attribute
+        {
+            const osg::StateAttribute* attribute = nullptr;
+            osg::StateAttribute::OverrideValue override = osg::StateAttribute::OFF;
+        };
+        Attribute material, depth, polygonMode;
     };
 
     bool casts(const osg::Node& node);
     void addTo(State& state, const osg::StateSet& stateSet) const;
     bool isLeftOut(const osg::Drawable& drawable, const State& state) const;
+    static bool isSeenThrough(const State& state);
     Caster& casterFor(const osg::Drawable& drawable);
     /// Matrices that OSG's nodes ask for seldom are made only then: it takes longer than the rest.
     osg::CullStack& cullStack() const;

@@ -63,27 +63,32 @@ void Framebuffer::releaseGLObjects(osg::State* state) const
     _id = 0;
 }
 
-FramebufferVisit::FramebufferVisit(const osg::GLExtensions& gl) : _gl(gl)
+FramebufferVisit::FramebufferVisit(osg::State& state) : _state(state)
 {
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
     glGetIntegerv(GL_VIEWPORT, _viewport);
     glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
     glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
-    _scissor = glIsEnabled(GL_SCISSOR_TEST);
+    _hasScissor = glIsEnabled(GL_SCISSOR_TEST);
+    glGetIntegerv(GL_SCISSOR_BOX, _scissor);
     glDisable(GL_SCISSOR_TEST);
+    _state.haveAppliedMode(GL_SCISSOR_TEST, osg::StateAttribute::OFF);
     glClearDepth(1.0);
 }
 
 FramebufferVisit::~FramebufferVisit()
 {
-    _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
-    _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
+    const auto* gl = _state.get<osg::GLExtensions>();
+    gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, GLuint(_draw));
+    gl->glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(_read));
     glViewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]);
     glClearColor(_color[0], _color[1], _color[2], _color[3]);
     glClearDepth(_depth);
-    if (_scissor)
-        glEnable(GL_SCISSOR_TEST);
+    glScissor(_scissor[0], _scissor[1], _scissor[2], _scissor[3]);
+    (_hasScissor ? glEnable : glDisable)(GL_SCISSOR_TEST);
+    _state.haveAppliedMode(GL_SCISSOR_TEST, _hasScissor);
+    _state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
 }
 
 } // namespace osgShadowVolume

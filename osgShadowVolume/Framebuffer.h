@@ -34,22 +34,23 @@ private:
 };
 
 /// While it lives, drawing may visit other framebuffers: it puts back the bindings, the viewport,
-/// the scissor test and the values for clearing. There is no scissor test at first.
+/// the scissor and the values for clearing. There is no scissor test at first.
 class FramebufferVisit
 {
 public:
-    explicit FramebufferVisit(const osg::GLExtensions& gl);
+    explicit FramebufferVisit(osg::State& state);
     ~FramebufferVisit();
     FramebufferVisit(const FramebufferVisit&) = delete;
     FramebufferVisit& operator=(const FramebufferVisit&) = delete;
 
 private:
-    const osg::GLExtensions& _gl;
+    osg::State& _state;
     GLint _draw = 0, _read = 0;
     GLint _viewport[4] = {};
     GLfloat _color[4] = {};
     GLdouble _depth = 1.0;
-    GLboolean _scissor = GL_FALSE;
+    GLboolean _hasScissor = GL_FALSE;
+    GLint _scissor[4] = {};
 };
 
 } // namespace osgShadowVolume

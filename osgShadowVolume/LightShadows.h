@@ -3,13 +3,15 @@
 
 #include <osgShadowVolume/CasterCollector.h>
 #include <osgShadowVolume/LightReach.h>
+#include <osgShadowVolume/LightScreen.h>
+#include <osgShadowVolume/ShadowHull.h>
 #include <osgShadowVolume/ShadowSettings.h>
 
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <map>
-#include <set>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +28,9 @@ struct LightDecision
     /// Casters that may throw shadows on what is in view, as indices.
     std::vector<std::uint32_t> casters;
     /// Parallel to `casters`: its volume may hold or cut the near rectangle.
+    /// So does each where casters are seen through.
     std::vector<bool> needsZFail;
+    ScreenBounds bounds; ///< Where it may light anything.
 };
 
 /// The shadows of all lights in one view of one frame: what takes light away, and how a lit surface
@@ -45,8 +49,11 @@ public:
 
     /// Before anything else: what the context can do.
     virtual void begin(osg::RenderInfo& renderInfo) = 0;
-    /// Decides on each light; `viewport` in pixels. The lights stay where they are until the frame is drawn.
-    void plan(const glm::dvec4& viewport, const osgMultiRender::SurfaceFrame& frame, const std::vector<EyeLight>& lights);
+    /// Decides on each light. `viewport` in pixels; `receivers` holds all that is in view, in eye
+    /// coordinates. Beyond its limit a light need not cast shadows. The lights stay where they are
+    /// until the frame is drawn.
+    void plan(const glm::dvec4& viewport, const Hexahedron& receivers,
+              const std::vector<EyeLight>& lights, const std::vector<double>& limits);
     /// What was decided on a light; indices are those of plan().
     const LightDecision& getDecision(std::size_t light) const { return _decisions[light]; }
     /// Whether the LightSource of a light in the group says castShadow=0.
@@ -87,10 +94,12 @@ protected:
     osg::RefMatrix* getProjection() const { return _projection.get(); }
 
 private:
-    LightDecision decide(const EyeLight& light) const;
+    /// What the light or the settings say against its shadows; null for nothing.
+    const char* whyNoShadow(const EyeLight& light) const;
 
     const ShadowSettings _settings;
     bool _isDynamic = false;
+    bool _isClipped = false; ///< Casters are seen through where a mirror clips them away.
     std::vector<Caster> _casters;
     std::set<const osg::Light*> _shadowless;
     std::map<std::string, unsigned int> _notCasting; ///< By reason, for the plan.

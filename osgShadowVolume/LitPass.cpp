@@ -8,6 +8,8 @@
 #include <osg/GLExtensions>
 #include <osgDB/ReadFile>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -38,7 +40,8 @@ enum KitBits : std::uint32_t
     TypesShift = 8,
     TechniqueShift = 24,   ///< LightShadows::getVariantBits(), three bits.
     ShowShift = 27,        ///< Show, three bits.
-    FaceNormals = 1u << 30 ///< The model has no normals: those of its triangles.
+    FaceNormals = 1u << 30, ///< The model has no normals: those of its triangles.
+    Reflecting = 1u << 31   ///< A mirror.
 };
 
 std::uint32_t numberOfUniformLights(std::uint32_t kit)
@@ -95,6 +98,8 @@ void LitPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& 
 {
     if (_shadows)
         _shadows->cull(visitor, group);
+    if (_mirrors)
+        _mirrors->cull(visitor, group);
     if (measuresLight(_settings))
         _measures = _illuminance->measure(visitor, group, _settings);
 }
@@ -123,9 +128,10 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     std::map<int, std::size_t> lastOf;
     std::vector<EyeLight> all;
     frame.forEachLight(
-        [&](const osg::Light& light, const osg::Matrix* matrix)
+        [&](const osg::Light& light, const osg::Matrix* matrix, bool isHeadlight)
         {
             EyeLight eye = toEye(light, matrix);
+            eye.isHeadlight = isHeadlight;
             if (_shadows && _shadows->isShadowless(light))
                 eye.castsShadow = false;
             if (measuresLight(_settings) && !measure(eye, light, frame))
@@ -170,6 +176,7 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
     const double radius = 0.5 * glm::length(_boxMax - _boxMin);
     // Half of the tolerance is for what the whole view leaves out, half for what a leaf does.
     const double threshold = 0.5 * _tolerance / std::max<std::size_t>(1, all.size());
+    std::vector<double> limits;
     for (const EyeLight& light : all)
     {
         if (!isUsable(light))
@@ -180,12 +187,15 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
             continue;
         }
         const double reach = reachOf(light, threshold);
-        if (brightness(light) == 0.0 && !classifiesUnlit())
+        if (brightness(light) == 0.0 && !lightsUnlit())
             _dropped.push_back({light, "it is black"});
         else if (everythingBounded && !reaches(light, reach, center, radius))
             _dropped.push_back({light, "it reaches nothing in view"});
         else
+        {
             _lights.push_back(light);
+            limits.push_back(reach);
+        }
     }
     _used.assign(_lights.size(), false);
     if (_shadows)
@@ -193,7 +203,12 @@ void LitPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFr
         _shadows->begin(renderInfo);
         GLint viewport[4];
         glGetIntegerv(GL_VIEWPORT, viewport);
-        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, frame, _lights);
+        const glm::dmat4 toEye(glm::make_mat4(osg::Matrixd::inverse(_toGrid).ptr()));
+        const Hexahedron receivers = everythingBounded
+                                         ? boxOf(_boxMin, _boxMax, toEye)
+                                         : boxOf(glm::dvec3(1.0), glm::dvec3(-1.0), toEye);
+        _shadows->plan({viewport[0], viewport[1], viewport[2], viewport[3]}, receivers, _lights,
+                       limits);
     }
     if (_lights.size() > maxListed && _hasBox)
         for (unsigned int i = 0; i < 64; ++i)
@@ -323,21 +338,40 @@ std::uint32_t LitPass::listOf(std::vector<std::uint32_t> lights)
 
 bool LitPass::classifiesUnlit() const
 {
+    return lightsUnlit() || (_mirrors && _mirrors->isAny());
+}
+
+bool LitPass::lightsUnlit() const
+{
     return _settings.show != Show::PICTURE && _settings.show != Show::VOLUMES;
 }
 
 void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
                        std::uint32_t& number)
 {
-    classifyLights(state, leaf, key, number);
-    if (key.kit || classifiesUnlit())
+    if (key.lighting == LightingMode::Pixel || lightsUnlit())
+        classifyLights(state, leaf, key, number);
+    if (key.kit || lightsUnlit())
         addShadowBits(state, leaf, key, number);
+    if (_mirrors && _mirrors->isAny())
+        addMirrorBit(state, leaf, key, number);
+}
+
+void LitPass::addMirrorBit(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                           SurfaceKey& key, std::uint32_t& number)
+{
+    const int mirror = _mirrors->reflect(leaf, state.isOn(SurfaceState::Blend));
+    if (mirror < 0)
+        return;
+    key.kit |= Reflecting;
+    _reflections.push_back({number, mirror});
+    number = static_cast<std::uint32_t>(_reflections.size() - 1);
 }
 
 void LitPass::addShadowBits(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                             SurfaceKey& key, std::uint32_t number) const
 {
-    if (classifiesUnlit())
+    if (lightsUnlit())
     {
         key.lighting = LightingMode::Pixel;
         key.kit |= std::uint32_t(_settings.show) << ShowShift;
@@ -378,6 +412,8 @@ void LitPass::drawn(osg::RenderInfo& renderInfo)
 {
     if (_shadows)
         _shadows->drawn(renderInfo);
+    if (_mirrors)
+        _mirrors->drawn();
 }
 
 void LitPass::classifyLights(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
@@ -497,6 +533,11 @@ void LitPass::end(osg::RenderInfo& renderInfo)
 SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
 {
     SurfaceSnippet snippet;
+    if (key.kit & Reflecting)
+    {
+        snippet.output = Mirrors::makeSource();
+        snippet.samplers.emplace_back("osgsv_reflection", Mirrors::ReflectionUnit);
+    }
     if (key.lighting != LightingMode::Pixel)
         return snippet;
     const auto show = static_cast<Show>((key.kit >> ShowShift) & 7u);
@@ -517,7 +558,8 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
     {
         snippet.fragment += "#define OSGSV_SHADOWS\n";
         snippet.fragment += _shadows->makeSource((key.kit & Transparent) != 0);
-        snippet.samplers = _shadows->getSamplers();
+        for (const auto& sampler : _shadows->getSamplers())
+            snippet.samplers.push_back(sampler);
     }
     const std::uint32_t uniforms = numberOfUniformLights(key.kit);
     if (key.kit & Gridded)
@@ -597,6 +639,12 @@ void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVa
     const auto* gl = state.get<osg::GLExtensions>();
     if (variant.getKey().kit & Shadowed)
         _shadows->apply(program, *gl);
+    if (variant.getKey().kit & Reflecting)
+    {
+        const Reflection& reflection = _reflections[number];
+        _mirrors->apply(state, program, reflection.mirror);
+        number = reflection.list;
+    }
     if (_settings.show == Show::ILLUMINANCE)
         gl->glUniform1f(program.getUniformLocation(maximum), float(_measures.maximum));
     if (!(variant.getKey().kit & ((1u << TypesShift) - 1u)))

@@ -5,6 +5,7 @@
 #include <osgShadowVolume/LightGrid.h>
 #include <osgShadowVolume/LightShadows.h>
 #include <osgShadowVolume/LightTextures.h>
+#include <osgShadowVolume/Mirrors.h>
 
 #include <osgMultiRender/SurfaceFrame.h>
 
@@ -29,6 +30,9 @@ public:
 
     /// What to measure with, for Show::LUX and Show::ILLUMINANCE. To be set before cull().
     void setIlluminance(IlluminanceView* illuminance) { _illuminance = illuminance; }
+
+    /// What reflects. To be set before cull().
+    void setMirrors(std::unique_ptr<Mirrors> mirrors) { _mirrors = std::move(mirrors); }
 
     void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
     bool isDynamic() const override;
@@ -72,6 +76,12 @@ private:
         const LightSet* grid = nullptr;
         int gridCells = 0;
     };
+    /// What apply() gets as the number of a leaf with the kit bit Reflecting.
+    struct Reflection
+    {
+        std::uint32_t list; ///< Of _lists, where the leaf has lights.
+        int mirror;
+    };
     struct Dropped
     {
         EyeLight light;
@@ -88,6 +98,10 @@ private:
     std::uint32_t listOf(std::vector<std::uint32_t> lights);
     bool isUniform(const List& list) const;
     bool hasShadow(const List& list) const;
+    /// Whether light counts for surfaces that the model does not light, too.
+    bool lightsUnlit() const;
+    void addMirrorBit(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                      osgMultiRender::SurfaceKey& key, std::uint32_t& number);
     void classifyLights(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                         osgMultiRender::SurfaceKey& key, std::uint32_t& number);
     void addShadowBits(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
@@ -104,6 +118,7 @@ private:
     const double _tolerance;
     const ShadowSettings _settings;
     std::unique_ptr<LightShadows> _shadows;  ///< Null where nothing casts.
+    std::unique_ptr<Mirrors> _mirrors;       ///< Null where nothing reflects.
     IlluminanceView* _illuminance = nullptr; ///< The scene's.
     LightMeasures _measures;
     std::vector<EyeLight> _lights;
@@ -120,6 +135,7 @@ private:
     std::map<std::pair<std::uint32_t, const void*>, LightSet> _sets;
     std::map<std::vector<std::uint32_t>, std::uint32_t> _listNumbers;
     std::vector<List> _lists;
+    std::vector<Reflection> _reflections;
     std::vector<const EyeLight*> _gpuLights; ///< What the textures hold.
     std::vector<float> _gpuShadows;          ///< Parallel: indices of shadows.
     std::vector<std::int32_t> _gpuLists;     ///< Likewise.

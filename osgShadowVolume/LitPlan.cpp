@@ -64,6 +64,8 @@ void LitPass::fillPlan(osgMultiRender::Plan& plan) const
         _sets.begin(), _sets.end(), [](const auto& s) { return s.second.grid.has_value(); }));
     if (_shadows)
         _shadows->fillPlan(plan);
+    if (_mirrors)
+        _mirrors->fillPlan(plan);
     if (_settings.show == Show::ILLUMINANCE)
         plan.counts["illuminance.maximum"] = _measures.maximum;
     plan.counts["textureBytes"] =

@@ -33,7 +33,13 @@ glm::dmat4 worldFrom(const osgMultiRender::SurfaceFrame& frame)
 {
     auto& stage = const_cast<osgUtil::RenderStage&>(frame.getStage());
     const osg::RefMatrix* view = stage.getInitialViewMatrix();
-    return view ? glm::inverse(glm::dmat4(glm::make_mat4(view->ptr()))) : glm::dmat4(1.0);
+    glm::dmat4 toWorld =
+        view ? glm::inverse(glm::dmat4(glm::make_mat4(view->ptr()))) : glm::dmat4(1.0);
+    // In a mirror's picture the world is reflected; maps want a frame that is only turned.
+    if (glm::determinant(glm::dmat3(toWorld)) < 0.0)
+        for (int column = 0; column < 4; ++column)
+            toWorld[column].x = -toWorld[column].x;
+    return toWorld;
 }
 
 std::string plural(std::size_t number, const char* what)
@@ -82,7 +88,7 @@ void MapShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame&
                                        {std::max(1u, _budget.size), std::max(1u, _budget.layers)});
     _bytes = _targets->getBytes();
     _targets->setData(makeData(maps));
-    const FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    const FramebufferVisit visit(state);
     state.pushStateSet(_targets->getDrawState());
     state.pushStateSet(&_resources.mapPrograms.get(_samples));
     state.apply();

@@ -51,6 +51,8 @@ struct ShadowSettings
     unsigned int mapMegabytes = 256;
     Show show = Show::PICTURE;
     int lightShown = -1;
+    bool mirrors = true;
+    unsigned int maxMirrors = 4;
     bool keys = true;
     double metresPerUnit = 0.0;
     double illuminanceMaximum = 0.0;

@@ -15,6 +15,7 @@ namespace osgShadowVolume
 
 ShadowedScene::ShadowedScene()
     : _resources(std::make_unique<ShadowResources>()),
+      _mirrors(std::make_unique<MirrorResources>()),
       _illuminance(std::make_unique<IlluminanceView>())
 {
     // Event traversals visit only what asks for them.
@@ -24,6 +25,7 @@ ShadowedScene::ShadowedScene()
 ShadowedScene::ShadowedScene(const ShadowedScene& other, const osg::CopyOp& copyop)
     : LitScene(other, copyop), _settings(other._settings),
       _resources(std::make_unique<ShadowResources>()),
+      _mirrors(std::make_unique<MirrorResources>()),
       _illuminance(std::make_unique<IlluminanceView>())
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
@@ -44,6 +46,7 @@ void ShadowedScene::releaseGLObjects(osg::State* state) const
 {
     LitScene::releaseGLObjects(state);
     _resources->releaseGLObjects(state);
+    _mirrors->pool.releaseGLObjects(state);
     _illuminance->releaseGLObjects(state);
 }
 
@@ -62,6 +65,8 @@ std::unique_ptr<osgMultiRender::SurfacePass> ShadowedScene::createPass() const
         shadows = std::make_unique<MapShadows>(_settings, *_resources);
     auto pass = std::make_unique<LitPass>(*this, _settings, std::move(shadows));
     pass->setIlluminance(_illuminance.get());
+    if (_settings.mirrors)
+        pass->setMirrors(std::make_unique<Mirrors>(_settings, *_mirrors));
     return pass;
 }
 

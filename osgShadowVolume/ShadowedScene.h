@@ -8,6 +8,7 @@ namespace osgShadowVolume
 {
 
 class IlluminanceView;
+struct MirrorResources;
 struct ShadowResources;
 
 /// A LitScene whose lights cast hard shadows, right to the pixel, on everything in the group.
@@ -69,6 +70,16 @@ public:
     void setLightShown(int number) { _settings.lightShown = number; }
     int getLightShown() const { return _settings.lightShown; }
 
+    /// Whether flat surfaces that say they are mirrors reflect the group; MirrorNames.h says how
+    /// they say it. One bounce, with all lights and shadows.
+    void setMirrors(bool on) { _settings.mirrors = on; }
+    bool getMirrors() const { return _settings.mirrors; }
+
+    /// Planes that a view draws reflections for, the largest in the picture first. All mirrors of
+    /// a plane are one.
+    void setMaxMirrors(unsigned int planes) { _settings.maxMirrors = planes; }
+    unsigned int getMaxMirrors() const { return _settings.maxMirrors; }
+
     /// Whether the group answers to keys of the viewer.
     void setKeys(bool on) { _settings.keys = on; }
     bool getKeys() const { return _settings.keys; }
@@ -100,6 +111,7 @@ protected:
 private:
     ShadowSettings _settings;
     std::unique_ptr<ShadowResources> _resources;
+    std::unique_ptr<MirrorResources> _mirrors;
     std::unique_ptr<IlluminanceView> _illuminance;
 };
 

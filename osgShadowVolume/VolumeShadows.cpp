@@ -2,10 +2,12 @@
 #include <osgShadowVolume/VolumeShadows.h>
 
 #include <osgShadowVolume/CasterDraw.h>
+#include <osgShadowVolume/DepthBounds.h>
 #include <osgShadowVolume/EnumNames.h>
 #include <osgShadowVolume/Shaders.h>
 
 #include <osg/GLExtensions>
+#include <osg/Scissor>
 #include <osg/Viewport>
 #include <osgDB/ReadFile>
 
@@ -125,7 +127,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
     _targets = _resources.targets.acquire(_contextID, layout);
 
-    FramebufferVisit visit(*state.get<osg::GLExtensions>());
+    FramebufferVisit visit(state);
     // Without it osg::State would go back to its default viewport at our own draws.
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
@@ -232,14 +234,28 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
             _targets->bindMask(state, layer, word);
             resolve(renderInfo, -1);
         }
+        const ScreenBounds& bounds = getDecision(light).bounds;
+        osg::ref_ptr<osg::StateSet> area = new osg::StateSet;
+        area->setAttributeAndModes(
+            new osg::Scissor(bounds.x, bounds.y, bounds.width, bounds.height),
+            osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
         _targets->bindCounter(state, layer);
+        state.pushStateSet(area);
+        state.apply();
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         state.haveAppliedAttribute(osg::StateAttribute::COLORMASK);
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
         glClear(GL_COLOR_BUFFER_BIT);
-        drawVolumes(renderInfo, light);
+        {
+            const DepthBounds depths(state, bounds.nearDepth, bounds.farDepth);
+            drawVolumes(renderInfo, light);
+        }
         _targets->bindMask(state, layer, word);
         resolve(renderInfo, index % 32);
+        state.popStateSet();
+        // What clears next, clears all; the next area may come to lie where this one was.
+        state.applyMode(GL_SCISSOR_TEST, false);
+        state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
     }
 }
 
@@ -270,9 +286,13 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
     }
     _drawCalls += draw.getDrawCalls();
     const std::size_t casters = decision.casters.size();
+    const TargetLayout& layout = _targets->getLayout();
+    const double share = double(decision.bounds.width) * decision.bounds.height /
+                         (double(layout.width) * layout.height);
     _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
-                           ", z-fail for " + std::to_string(zFail) +
-                           ", technique=" + nameOf(_technique);
+                           ", z-fail for " + std::to_string(zFail) + ", technique=" +
+                           nameOf(_technique) + ", on " +
+                           std::to_string(std::lround(100.0 * share)) + " % of the screen";
 }
 
 std::string VolumeShadows::makeSource(bool transparent) const

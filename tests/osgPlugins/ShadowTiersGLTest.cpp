@@ -174,7 +174,7 @@ TEST_F(ShadowTiers, eachTierHasTheSameMaskByTheTechniqueThatItHas)
         {
             _scene->setTechnique(tier.technique);
             const Seen seen = view(tier.environment);
-            EXPECT_NE(seen.text.find(std::string("technique=") + tier.used + "\n"),
+            EXPECT_NE(seen.text.find(std::string("technique=") + tier.used + ","),
                       std::string::npos)
                 << linesWith(seen.text, "technique=");
             EXPECT_EQ(linesWith(seen.text, "FAILED"), "");

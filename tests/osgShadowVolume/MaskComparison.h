@@ -29,7 +29,8 @@ struct MaskDifference
     unsigned int shadowed = 0;      ///< By the truth.
     unsigned int wrongBand = 0;     ///< Wrong, within a pixel of an edge of the truth.
     unsigned int wrongGrazing = 0;  ///< Wrong at grazing light.
-    unsigned int withinQuantum = 0; ///< Wrong, proved to lie within one depth quantum.
+    /// Wrong, proved to lie within one depth quantum or the rasterizer's snapping of corners.
+    unsigned int withinQuantum = 0;
     /// Wrong, and right for a light on the other side of a plane in which it lies but for rounding.
     unsigned int withinRounding = 0;
     unsigned int leaks = 0;                      ///< Wrong, all others.

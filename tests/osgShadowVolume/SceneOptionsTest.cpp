@@ -25,6 +25,8 @@ const std::map<std::string, std::string> Changed = {{"shadows", "map"},
                                                     {"mapbudget", "17"},
                                                     {"show", "lux"},
                                                     {"light", "12"},
+                                                    {"mirrors", "off"},
+                                                    {"maxmirrors", "9"},
                                                     {"keys", "off"},
                                                     {"metres", "0.0254"},
                                                     {"maxlux", "1e+30"},
@@ -78,6 +80,8 @@ TEST(SceneOptionsTest, settingsArriveInTheScene)
     EXPECT_EQ(scene->getMapMegabytes(), 17u);
     EXPECT_EQ(scene->getShow(), Show::LUX);
     EXPECT_EQ(scene->getLightShown(), 12);
+    EXPECT_FALSE(scene->getMirrors());
+    EXPECT_EQ(scene->getMaxMirrors(), 9u);
     EXPECT_FALSE(scene->getKeys());
     EXPECT_EQ(scene->getMetresPerUnit(), 0.0254);
     EXPECT_EQ(scene->getIlluminanceMaximum(), 1e30);

@@ -4,6 +4,7 @@
 
 #include <support/NotifyCapture.h>
 
+#include <osg/CullFace>
 #include <osg/MatrixTransform>
 
 #include <cmath>
@@ -61,6 +62,7 @@ void expectNoLeak(osg::Node& scene, const CameraSpec& camera, const std::string&
     for (const auto& [way, difference] : result.differences)
     {
         EXPECT_GT(difference.object, 0u) << name;
+        EXPECT_EQ(difference.withinRounding, 0u) << name << ": the place of a light is exact here";
         if (!both)
             continue;
         EXPECT_GT(difference.shadowed, 0u) << name << ": nothing is in shadow";
@@ -216,6 +218,19 @@ TEST_F(ShadowExtremeGLTest, openSheet)
     expectNoLeak(mesh, high(), "sheet");
     expectNoLeak(mesh, {1.0f, 0.2f, 0.3f, 0.0f}, "sheet.directional");
     expectNoLeak(mesh, {0.1f, 0.2f, 0.6f, 1.0f}, "sheet.below");
+}
+
+TEST_F(ShadowExtremeGLTest, whatIsSeenThroughACasterThatIsNotDrawnIsInItsShadow)
+{
+    for (const osg::CullFace::Mode mode : {osg::CullFace::FRONT, osg::CullFace::BACK})
+    {
+        ExtremeMesh mesh;
+        mesh.sheet(16);
+        osg::ref_ptr<osg::Node> caster = mesh.createNode();
+        caster->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace(mode));
+        expectNoLeak(*sceneOf(*caster, high()), outside(), "culled");
+        expectNoLeak(*sceneOf(*caster, {0.1f, 0.2f, 3.0f, 1.0f}), outside(), "culled.above");
+    }
 }
 
 TEST_F(ShadowExtremeGLTest, moebiusStrip)

@@ -509,6 +509,88 @@ bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, S
     return false;
 }
 
+namespace
+{
+
+/// Depths at which rays around a pixel's center meet something, in normalized device coordinates.
+struct DepthRange
+{
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+    int hits = 0;
+
+    void add(double depth)
+    {
+        ++hits;
+        low = std::min(low, depth);
+        high = std::max(high, depth);
+    }
+};
+
+/// Where the ray meets the side of the volume at the edge (a, b); nothing where it passes the side.
+/// The side is taken a thousandth longer at each end, for rays that are off by rounding.
+bool meetsSide(const osg::Vec3d& a, const osg::Vec3d& b, const EyeLight& eye, const EyeRay& ray,
+               osg::Vec3d& point)
+{
+    const osg::Vec3d edge = b - a, normal = edge ^ eye.from(a);
+    const double slope = ray.direction * normal;
+    if (slope == 0.0)
+        return false;
+    point = ray.origin + ray.direction * (((a - ray.origin) * normal) / slope);
+    const osg::Vec3d towards = eye.from(point);
+    const double across = (edge ^ towards) * normal;
+    if (across == 0.0)
+        return false;
+    const double share = (((point - a) ^ towards) * normal) / across;
+    const osg::Vec3d foot = a + edge * share;
+    return share >= -1e-3 && share <= 1.001 && (foot - point) * towards >= -1e-9;
+}
+
+} // namespace
+
+bool ShadowTruth::isWithinSnapping(const Light& light, double x, double y,
+                                   const osg::Vec2d& pixel) const
+{
+    const State& s = *_state;
+    const EyeLight eye = s.toEye(light);
+    constexpr double Quantum = 2.0 / (1 << 24); // of -1 to 1
+    std::vector<EyeRay> rays;
+    for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i)
+            rays.push_back(s.rayAt(x + pixel.x() * i / 256.0, y + pixel.y() * j / 256.0));
+    const Sample first = s.firstHit(rays[4]);
+    if (first.triangle < 0)
+        return false;
+    const auto depthOf = [&](const osg::Vec3d& point) { return (point * s.projection).z(); };
+    DepthRange surface;
+    for (const EyeRay& ray : rays)
+        surface.add(depthOf(s.hitAt(first.triangle, ray).point));
+    // A face whose edge passes so near to the center may be a hair's breadth wide, and then single
+    // precision has no depth for it.
+    const auto mayBeAt = [&](const DepthRange& face)
+    {
+        return (face.hits > 0 && face.hits < static_cast<int>(rays.size())) ||
+               (face.low - Quantum <= surface.high && face.high + Quantum >= surface.low);
+    };
+    for (int i = 0; i < static_cast<int>(s.triangles.size()); ++i)
+    {
+        const EyeTriangle& triangle = s.triangles[i];
+        DepthRange cap, sides[3];
+        for (const EyeRay& ray : rays)
+        {
+            if (!s.areSame(i, first.triangle) && meets(triangle, ray.origin, ray.direction))
+                cap.add(depthOf(s.hitAt(i, ray).point));
+            osg::Vec3d point;
+            for (int k = 0; k < 3; ++k)
+                if (meetsSide(triangle.corner[k], triangle.corner[(k + 1) % 3], eye, ray, point))
+                    sides[k].add(depthOf(point));
+        }
+        if (mayBeAt(cap) || mayBeAt(sides[0]) || mayBeAt(sides[1]) || mayBeAt(sides[2]))
+            return true;
+    }
+    return false;
+}
+
 std::vector<Sample> ShadowTruth::render(const Light& light, int width, int height) const
 {
     std::vector<Sample> samples(static_cast<std::size_t>(width) * height);

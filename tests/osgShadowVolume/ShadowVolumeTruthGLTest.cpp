@@ -162,7 +162,7 @@ TEST(ShadowVolumeTruthGLTest, aPlantUnderEightLightsHasNoLeak)
 {
     OSGKITS_NEED_GL(check().getViewer());
     PlantSettings settings;
-    settings.objects = truth::isLongRun() ? 1000 : 200;
+    settings.objects = truth::isLongRun() ? 1000 : 60;
     const osg::ref_ptr<osg::Group> plant = makePlant(settings);
     const double size = plant->getBound().radius();
     const CameraSpec camera =
@@ -171,7 +171,7 @@ TEST(ShadowVolumeTruthGLTest, aPlantUnderEightLightsHasNoLeak)
     std::vector<truth::Way> ways = truth::volumeWays();
     ways.push_back(truth::mapWay());
     truth::MaskTable table;
-    for (int light = 0; light < 8; light += truth::isLongRun() ? 1 : 3)
+    for (int light = 0; light < 8; light += truth::isLongRun() ? 1 : 5)
     {
         const std::string name = "truth.plant.light" + std::to_string(light);
         table.add(name, check().compare(*plant, camera, light, name, ways));

@@ -154,7 +154,7 @@ Light makeLight(const osg::Light& light, const osg::Matrixd& toWorld)
 
 int sideOf(const Triangle& triangle, const Frame& frame, const Light& light)
 {
-    const osg::Vec4f l(light.position * frame.fromWorld);
+    const osg::Vec4d l = light.position * frame.fromWorld;
     Exact edge[3][3];
     for (int k = 0; k < 3; ++k)
     {
@@ -173,7 +173,7 @@ int sideOf(const Triangle& triangle, const Frame& frame, const Light& light)
         size += (left < 0 ? -left : left) + (right < 0 ? -right : right);
     }
     // The sum of the roundings of differences, products and sums of floats, 2^-24 each, and of the
-    // light's own, which the length of its vector allows for.
+    // light's own place, which casters know to 48 bits.
     Exact reach = 0;
     for (int k = 0; k < 3; ++k)
         reach = std::max({reach, Exact(std::abs(l[k])), Exact(std::abs(triangle.local[0][k]))});
@@ -184,11 +184,39 @@ int sideOf(const Triangle& triangle, const Frame& frame, const Light& light)
         const Exact normal = edge[0][m] * edge[1][n] - edge[0][n] * edge[1][m];
         area += normal < 0 ? -normal : normal;
     }
-    const Exact limit = 1e-6 * size + 2e-7 * reach * area;
+    const Exact limit = 1e-6 * size + 1e-13 * reach * area;
     if (light.sideIfNear != -2 && determinant <= limit && -determinant <= limit)
         return light.sideIfNear * frame.handedness;
     const int local = determinant > 0 ? 1 : determinant < 0 ? -1 : 0;
     return local * frame.handedness;
+}
+
+bool touches(const Triangle& triangle, const Frame& frame, const Light& light)
+{
+    if (light.position.w() == 0.0)
+        return false;
+    const osg::Vec4d l = light.position * frame.fromWorld;
+    const osg::Vec3d p(l.x() / l.w(), l.y() / l.w(), l.z() / l.w());
+    double reach = p.length();
+    for (const osg::Vec3f& corner : triangle.local)
+        reach = std::max(reach, double(corner.length()));
+    const double limit = 1e-6 * reach;
+    const osg::Vec3d a(triangle.local[0]), b(triangle.local[1]), c(triangle.local[2]);
+    osg::Vec3d normal = (b - a) ^ (c - a);
+    if (normal.normalize() > 0.0 && std::abs((p - a) * normal) <= limit &&
+        ((b - a) ^ (p - a)) * normal >= 0.0 && ((c - b) ^ (p - b)) * normal >= 0.0 &&
+        ((a - c) ^ (p - c)) * normal >= 0.0)
+        return true;
+    for (int k = 0; k < 3; ++k)
+    {
+        const osg::Vec3d from(triangle.local[k]), edge = osg::Vec3d(triangle.local[(k + 1) % 3]) - from;
+        const double length2 = edge.length2();
+        const double share =
+            length2 > 0.0 ? std::clamp((p - from) * edge / length2, 0.0, 1.0) : 0.0;
+        if ((p - from - edge * share).length() <= limit)
+            return true;
+    }
+    return false;
 }
 
 } // namespace truth

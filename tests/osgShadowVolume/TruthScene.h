@@ -63,8 +63,12 @@ struct Scene
 Light makeLight(const osg::Light& light, const osg::Matrixd& toWorld);
 
 /// On which side of the plane of the triangle the light lies, from where it is counterclockwise: 1,
-/// from where it is clockwise: -1, in the plane: 0. Exact for the light as a caster knows it, which
-/// is in the caster's frame and rounded to float; see Light::sideIfNear.
+/// from where it is clockwise: -1, in the plane: 0. Exact for the light in the caster's frame; see
+/// Light::sideIfNear.
 int sideOf(const Triangle& triangle, const Frame& frame, const Light& light);
+
+/// Whether the light lies on a triangle, its edges and corners too, but for the rounding of float.
+/// Then the triangle spans half of all directions or more, and which half is decided by rounding.
+bool touches(const Triangle& triangle, const Frame& frame, const Light& light);
 
 } // namespace truth

@@ -55,6 +55,8 @@ REGISTER_OBJECT_WRAPPER(osgShadowVolume_ShadowedScene, new osgShadowVolume::Shad
     ADD_UINT_SERIALIZER(MapMegabytes, defaults.mapMegabytes);
     addValueNames(*wrapper, "Show", ShowNames, defaults.show, &MyClass::getShow, &MyClass::setShow);
     ADD_INT_SERIALIZER(LightShown, defaults.lightShown);
+    ADD_BOOL_SERIALIZER(Mirrors, defaults.mirrors);
+    ADD_UINT_SERIALIZER(MaxMirrors, defaults.maxMirrors);
     ADD_BOOL_SERIALIZER(Keys, defaults.keys);
     ADD_DOUBLE_SERIALIZER(MetresPerUnit, defaults.metresPerUnit);
     ADD_DOUBLE_SERIALIZER(IlluminanceMaximum, defaults.illuminanceMaximum);

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "FrameTimer.h"
+
+#include <osg/Stats>
+#include <osg/Timer>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+namespace
+{
+
+support::HeadlessSettings settingsOf(int width, int height)
+{
+    support::HeadlessSettings settings;
+    settings.width = width;
+    settings.height = height;
+    return settings;
+}
+
+} // namespace
+
+FrameTimer::FrameTimer(int width, int height)
+    : _width(width), _height(height), _viewer(settingsOf(width, height))
+{
+    if (!isValid())
+        return;
+    _viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
+    osg::Camera* const camera = _viewer.getViewer().getCamera();
+    if (!camera->getStats())
+        camera->setStats(new osg::Stats("camera"));
+    camera->getStats()->collectStats("rendering", true);
+}
+
+FrameTime FrameTimer::draw(osg::Node& scene, const support::CameraSpec& camera,
+                           const std::function<void()>& change)
+{
+    _viewer.render(&scene, camera, _width, _height);
+    if (change)
+        change();
+    FrameTime time;
+    const osg::Timer_t start = osg::Timer::instance()->tick();
+    _viewer.render(&scene, camera, _width, _height);
+    time.frame = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+    osg::Stats& stats = *_viewer.getViewer().getCamera()->getStats();
+    double seconds = 0.0;
+    if (stats.getAttribute(stats.getLatestFrameNumber(), "Cull traversal time taken", seconds))
+        time.cull = 1e3 * seconds;
+    return time;
+}
+
+double median(std::vector<double> values)
+{
+    std::sort(values.begin(), values.end());
+    return values.empty() ? 0.0 : values[values.size() / 2];
+}
+
+void Table::add(const std::string& label, const std::vector<double>& values)
+{
+    _rows.emplace_back(label, values);
+}
+
+void Table::print() const
+{
+    for (const std::string& column : _columns)
+        std::printf("%16s", column.c_str());
+    std::printf("\n");
+    for (const auto& [label, values] : _rows)
+    {
+        std::printf("%16s", label.c_str());
+        for (double value : values)
+            std::printf("%16.3f", value);
+        std::printf("\n");
+    }
+}
+
+bool Table::write(const std::string& name) const
+{
+    if (name.empty())
+        return true;
+    std::ofstream file(name);
+    for (std::size_t i = 0; i < _columns.size(); ++i)
+        file << (i ? "," : "") << _columns[i];
+    file << '\n';
+    for (const auto& [label, values] : _rows)
+    {
+        file << label;
+        for (double value : values)
+            file << ',' << value;
+        file << '\n';
+    }
+    return file.good();
+}
+
+bool parseSize(const std::string& text, int& width, int& height)
+{
+    return std::sscanf(text.c_str(), "%dx%d", &width, &height) == 2 && width > 0 && height > 0;
+}
