@@ -2,6 +2,7 @@
 #include <osgMultiRender/SurfaceState.h>
 
 #include <osg/Depth>
+#include <osg/Multisample>
 #include <osg/PointSprite>
 #include <osg/Texture>
 #include <osg/TextureCubeMap>
@@ -56,6 +57,10 @@ std::uint32_t bitOfMode(osg::StateAttribute::GLMode mode)
         return SurfaceState::DepthTest;
     case GL_ALPHA_TEST:
         return SurfaceState::AlphaTest;
+    case GL_SAMPLE_ALPHA_TO_COVERAGE_ARB:
+        return SurfaceState::AlphaToCoverage;
+    case GL_POLYGON_OFFSET_FILL:
+        return SurfaceState::PolygonOffset;
     case GL_VERTEX_PROGRAM_ARB:
     case GL_FRAGMENT_PROGRAM_ARB:
         return SurfaceState::AssemblyProgram;

@@ -41,7 +41,9 @@ public:
         ClipPlane0 = 1u << 16,     ///< GL_CLIP_PLANE0 to GL_CLIP_PLANE7.
         Blend = 1u << 24,
         DepthTest = 1u << 25,
-        AlphaTest = 1u << 26
+        AlphaTest = 1u << 26,
+        AlphaToCoverage = 1u << 27,
+        PolygonOffset = 1u << 28 ///< GL_POLYGON_OFFSET_FILL.
     };
 
     /// Modes that are tracked for each texture unit.

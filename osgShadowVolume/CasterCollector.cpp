@@ -8,6 +8,7 @@
 #include <osg/ClearNode>
 #include <osg/Depth>
 #include <osg/LightSource>
+#include <osg/Multisample>
 #include <osg/PolygonMode>
 #include <osg/Projection>
 #include <osgUtil/CullVisitor>
@@ -19,6 +20,14 @@ namespace osgShadowVolume
 
 namespace
 {
+
+/// Modes under which a surface may lack parts.
+bool makesHoles(GLenum mode)
+{
+    return mode == GL_STENCIL_TEST || mode == GL_POLYGON_STIPPLE ||
+           mode == GL_SAMPLE_ALPHA_TO_COVERAGE_ARB ||
+           (mode >= GL_CLIP_PLANE0 && mode < GL_CLIP_PLANE0 + 8);
+}
 
 const char* nameOf(NoCaster reason)
 {
@@ -126,6 +135,11 @@ void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
                      (pair->second & StateAttribute::PROTECTED)))
             attribute = {pair->first.get(), pair->second};
     };
+    // Once on is enough here: z-fail is right for casters that hide what is behind them, too.
+    for (const auto& [mode, value] : stateSet.getModeList())
+        state.hasHoles = state.hasHoles || ((value & StateAttribute::ON) && makesHoles(mode));
+    for (StateAttribute::Type type : {StateAttribute::PROGRAM, StateAttribute::COLORMASK})
+        state.hasHoles = state.hasHoles || stateSet.getAttribute(type);
     if (!stateSet.getModeList().empty())
     {
         addMode(state.blend, GL_BLEND);
@@ -146,8 +160,10 @@ bool CasterCollector::isSeenThrough(const State& state)
     using osg::StateAttribute;
     const auto isOn = [](State::Value mode) { return (mode & StateAttribute::ON) != 0; };
     const auto* depth = static_cast<const osg::Depth*>(state.depth.attribute);
+    const bool isNearest = !depth || depth->getFunction() == osg::Depth::LESS ||
+                           depth->getFunction() == osg::Depth::LEQUAL;
     const auto* polygons = static_cast<const osg::PolygonMode*>(state.polygonMode.attribute);
-    return isOn(state.blend) || isOn(state.alphaTest) || isOn(state.cullFace) ||
+    return state.hasHoles || !isNearest || isOn(state.blend) || isOn(state.alphaTest) || isOn(state.cullFace) ||
            !isOn(state.depthTest) || (depth && !depth->getWriteMask()) ||
            (polygons &&
             (polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
@@ -167,6 +183,7 @@ void CasterCollector::apply(osg::Node& node)
     if (!casts(node))
         return;
     const State outer = _state;
+    _state.hasHoles = _state.hasHoles || node.getCullCallback(); // may hide what is below
     if (node.getStateSet())
         addTo(_state, *node.getStateSet());
     traverse(node);
@@ -178,6 +195,7 @@ void CasterCollector::apply(osg::Transform& node)
     if (!casts(node))
         return;
     const State outer = _state;
+    _state.hasHoles = _state.hasHoles || node.getCullCallback(); // may hide what is below
     if (node.getStateSet())
         addTo(_state, *node.getStateSet());
     // The very operations of osgUtil::CullVisitor, so that the matrix is the same bit for bit.
@@ -212,6 +230,7 @@ void CasterCollector::apply(osg::Drawable& drawable)
         return;
     }
     State state = _state;
+    state.hasHoles = state.hasHoles || drawable.getCullCallback();
     if (drawable.getStateSet())
         addTo(state, *drawable.getStateSet());
     if (isLeftOut(drawable, state))

@@ -114,6 +114,7 @@ private:
             osg::StateAttribute::OverrideValue override = osg::StateAttribute::OFF;
         };
         Attribute material, depth, polygonMode;
+        bool hasHoles = false; ///< For any other reason.
     };
 
     bool casts(const osg::Node& node);

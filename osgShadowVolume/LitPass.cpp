@@ -406,6 +406,7 @@ void LitPass::drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
         _shadows->draw(renderInfo, frame, _used,
                        [](const osgMultiRender::SurfaceItem& item)
                        { return item.variant && (item.variant->getKey().kit & Shadowed); });
+    _under = nullptr; // now there are shadows to be looked up
 }
 
 void LitPass::drawn(osg::RenderInfo& renderInfo)

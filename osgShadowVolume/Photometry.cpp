@@ -21,8 +21,10 @@ namespace
 std::string toText(double value, int digits = 15)
 {
     char text[32];
-    std::snprintf(text, sizeof(text), "%.*g", digits, value);
-    return text;
+    // In any locale.
+    const auto end =
+        std::to_chars(text, text + sizeof(text), value, std::chars_format::general, digits).ptr;
+    return std::string(text, end);
 }
 
 /// Takes the text of a number out of a user value of any type.

@@ -144,7 +144,7 @@ std::vector<SceneOption> makeOptions()
         whole("mapsize", "Texels on a side of a shadow map", 16, 65536, &S::getMapSize,
               &S::setMapSize),
         whole("pcf", "Texels on a side of the square that a shadow map is filtered over; 1 is none",
-              1, 32, &S::getMapSamples, &S::setMapSamples),
+              1, 16, &S::getMapSamples, &S::setMapSamples),
         whole("mapbudget", "MiB that the shadow maps of a view may take", 1, 1048576,
               &S::getMapMegabytes, &S::setMapMegabytes),
         choice("show",

@@ -10,6 +10,7 @@
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/LogicOp>
+#include <osg/Multisample>
 #include <osg/PolygonOffset>
 #include <osg/Program>
 #include <osg/Uniform>
@@ -56,8 +57,11 @@ VolumePart partOf(Pass pass)
 }
 
 /// State in which leaves are drawn once more, over their own.
-void setDepthState(osg::StateSet& state)
+void setDepthState(osg::StateSet& state, bool masked)
 {
+    // Without a colour there is no alpha that would say what is covered.
+    if (!masked)
+        state.setMode(GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, Off);
     state.setAttribute(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), On);
     state.setAttribute(new osg::ColorMask, On);
     for (GLenum mode : {GL_BLEND, GL_COLOR_LOGIC_OP, GL_STENCIL_TEST})
@@ -161,7 +165,7 @@ osg::ref_ptr<osg::StateSet> ShadowPasses::make(const Key& key)
     else if (key.pass == Pass::Clear || key.pass == Pass::Resolve)
         setScreenState(*state, key.pass == Pass::Resolve);
     else
-        setDepthState(*state);
+        setDepthState(*state, key.pass == Pass::Masked);
     if (key.pass == Pass::Peel)
     {
         state->addUniform(new osg::Uniform("osgsv_depth", ShadowTargets::DepthUnit));

@@ -24,14 +24,17 @@ public:
     {
         std::lock_guard<std::mutex> lock(_mutex);
         auto& free = _free[contextID];
-        const auto found = std::find_if(free.begin(), free.end(),
-                                        [&](const auto& t) { return t->getLayout() == layout; });
+        ++_uses;
+        // Of a window that was resized, of a number of lights that has changed.
+        free.erase(std::remove_if(free.begin(), free.end(), [this](const Free& f)
+                                  { return f.use + UsesUnused < _uses; }),
+                   free.end());
+        const auto found =
+            std::find_if(free.begin(), free.end(),
+                         [&](const Free& f) { return f.targets->getLayout() == layout; });
         if (found == free.end())
-        {
-            free.clear(); // a window that was resized, a number of lights that has changed
             return new Targets(contextID, layout);
-        }
-        osg::ref_ptr<Targets> targets = *found;
+        osg::ref_ptr<Targets> targets = found->targets;
         free.erase(found);
         return targets;
     }
@@ -39,7 +42,7 @@ public:
     void release(unsigned int contextID, osg::ref_ptr<Targets> targets)
     {
         std::lock_guard<std::mutex> lock(_mutex);
-        _free[contextID].push_back(std::move(targets));
+        _free[contextID].push_back({std::move(targets), _uses});
     }
 
     void releaseGLObjects(osg::State* state)
@@ -52,8 +55,18 @@ public:
     }
 
 private:
+    /// Views that a frame may have, times some frames.
+    static constexpr unsigned int UsesUnused = 32;
+
+    struct Free
+    {
+        osg::ref_ptr<Targets> targets;
+        unsigned int use; ///< When it was given back.
+    };
+
     std::mutex _mutex;
-    std::map<unsigned int, std::vector<osg::ref_ptr<Targets>>> _free;
+    unsigned int _uses = 0;
+    std::map<unsigned int, std::vector<Free>> _free;
 };
 
 } // namespace osgShadowVolume

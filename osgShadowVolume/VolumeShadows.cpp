@@ -23,13 +23,6 @@ using Pass = ShadowPasses::Pass;
 namespace
 {
 
-void drawScreen(osg::State& state)
-{
-    // gl_VertexID alone places the corners.
-    state.disableAllVertexArrays();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
 /// Hues that are far apart for neighbours.
 osg::Vec4 colorOf(int index)
 {
@@ -115,7 +108,13 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     bool hasTransparent = false;
     frame.forEachItem(
         [&](const SurfaceItem& item)
-        { hasTransparent = hasTransparent || (isReceiver(item) && !isOpaque(item)); });
+        {
+            if (!isReceiver(item))
+                return;
+            hasTransparent = hasTransparent || !isOpaque(item);
+            _hasPolygonOffset = _hasPolygonOffset ||
+                                item.state->isOn(osgMultiRender::SurfaceState::PolygonOffset);
+        });
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
     TargetLayout layout;
@@ -158,7 +157,10 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     renderInfo.getState()->haveAppliedAttribute(osg::StateAttribute::DEPTH);
     glClear(GL_DEPTH_BUFFER_BIT);
     const auto hasHoles = [](const SurfaceItem& item)
-    { return item.state->isOn(osgMultiRender::SurfaceState::AlphaTest); };
+    {
+        return item.state->isOn(osgMultiRender::SurfaceState::AlphaTest) ||
+               item.state->isOn(osgMultiRender::SurfaceState::AlphaToCoverage);
+    };
     const auto draw = [&](Pass pass, bool holes)
     {
         frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
@@ -214,7 +216,7 @@ void VolumeShadows::resolve(osg::RenderInfo& renderInfo, int bit)
     state.pushStateSet(&_resources.passes.get(bit < 0 ? Pass::Clear : Pass::Resolve, _tier));
     state.pushStateSet(inputs);
     state.apply();
-    drawScreen(state);
+    _resources.screen->draw(renderInfo);
     state.popStateSet();
     state.popStateSet();
 }
@@ -247,7 +249,9 @@ void VolumeShadows::makeMask(osg::RenderInfo& renderInfo, const std::vector<bool
         glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
         glClear(GL_COLOR_BUFFER_BIT);
         {
-            const DepthBounds depths(state, bounds.nearDepth, bounds.farDepth);
+            // The bounds know nothing of surfaces that are pushed.
+            const DepthBounds depths(state, _hasPolygonOffset ? 0.0 : bounds.nearDepth,
+                                     _hasPolygonOffset ? 1.0 : bounds.farDepth);
             drawVolumes(renderInfo, light);
         }
         _targets->bindMask(state, layer, word);

@@ -25,7 +25,7 @@ void main()
     float z = gl_FragCoord.z;
     if (osgsv_layer > 0 && z <= OSGSV_DEPTH(osgsv_depth))
         discard;
-    if (z >= OSGSV_DEPTH(osgsv_opaqueDepth))
+    if (z > OSGSV_DEPTH(osgsv_opaqueDepth)) // at the same depth it may be drawn over it
         discard;
     osgsv_layerDepth = vec4(z);
 }

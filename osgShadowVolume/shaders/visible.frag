@@ -40,7 +40,8 @@ float osgsv_sampleVisible(int index, int s)
 {
     int layer = index >> 5;
 #ifdef OSGSV_TRANSPARENT
-    layer += (1 + osgsv_layerOf(s)) * osgsv_maskSize.x;
+    if (osgsv_maskSize.y > 0)
+        layer += (1 + osgsv_layerOf(s)) * osgsv_maskSize.x;
 #endif
     uint word = texelFetch(osgsv_mask, osgsv_texel(layer), s).r;
     return (word & (1u << (index & 31))) != 0u ? 0.0 : 1.0;

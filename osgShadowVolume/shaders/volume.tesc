@@ -5,13 +5,13 @@ layout(vertices = 2) out;
 flat in int osgsv_index[];
 in vec3 osgsv_position[];
 in vec4 osgsv_extruded[];
-out vec4 osgsv_end[];
+out vec4 osgsv_endOf[];
 patch out float osgsv_edgeMultiplicity;
 
 void main()
 {
     gl_out[gl_InvocationID].gl_Position = gl_in[gl_InvocationID].gl_Position;
-    osgsv_end[gl_InvocationID] = osgsv_extruded[gl_InvocationID];
+    osgsv_endOf[gl_InvocationID] = osgsv_extruded[gl_InvocationID];
     if (gl_InvocationID != 0)
         return;
     int sum = 0;
