@@ -19,9 +19,9 @@ namespace osgMultiRender
 struct SurfaceItem
 {
     osgUtil::RenderLeaf* leaf = nullptr;
-    SurfaceVariant* variant = nullptr; ///< Null: the leaf keeps its own state.
-    std::uint32_t number = 0;          ///< The kit's number of the leaf.
-    std::uint32_t order = 0;           ///< Of the variant, by first appearance in the frame.
+    SurfaceVariant* variant = nullptr;   ///< Null: the leaf keeps its own state.
+    std::uint32_t number = 0;            ///< The kit's number of the leaf.
+    std::uint32_t order = 0;             ///< Of the variant, by first appearance in the frame.
     const SurfaceState* state = nullptr; ///< Of the leaf; null below OpenGL 3.3.
 };
 
@@ -71,7 +71,8 @@ public:
 
     /// Draws the leaves that `select` picks into the current framebuffer, with `over` over their
     /// own state: a StateSet whose attributes and modes have OVERRIDE. Where it has a Program, this
-    /// one draws; where it has none, the leaf's variant does. Leaves without a variant are left out.
+    /// one draws; where it has none, the leaf's variant does. Leaves without a variant are left
+    /// out.
     void drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
                       const std::function<bool(const SurfaceItem&)>& select);
 

@@ -6,10 +6,12 @@
 #include <osg/Billboard>
 #include <osg/Camera>
 #include <osg/ClearNode>
+#include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/LightSource>
 #include <osg/Multisample>
 #include <osg/PolygonMode>
+#include <osg/Program>
 #include <osg/Projection>
 #include <osgUtil/CullVisitor>
 
@@ -138,8 +140,12 @@ void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
     // Once on is enough here: z-fail is right for casters that hide what is behind them, too.
     for (const auto& [mode, value] : stateSet.getModeList())
         state.hasHoles = state.hasHoles || ((value & StateAttribute::ON) && makesHoles(mode));
-    for (StateAttribute::Type type : {StateAttribute::PROGRAM, StateAttribute::COLORMASK})
-        state.hasHoles = state.hasHoles || stateSet.getAttribute(type);
+    const auto* program =
+        static_cast<const osg::Program*>(stateSet.getAttribute(StateAttribute::PROGRAM));
+    const auto* mask =
+        static_cast<const osg::ColorMask*>(stateSet.getAttribute(StateAttribute::COLORMASK));
+    state.hasHoles = state.hasHoles || (program && program->getNumShaders() > 0) ||
+                     (mask && !(mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask()));
     if (!stateSet.getModeList().empty())
     {
         addMode(state.blend, GL_BLEND);
@@ -163,18 +169,18 @@ bool CasterCollector::isSeenThrough(const State& state)
     const bool isNearest = !depth || depth->getFunction() == osg::Depth::LESS ||
                            depth->getFunction() == osg::Depth::LEQUAL;
     const auto* polygons = static_cast<const osg::PolygonMode*>(state.polygonMode.attribute);
-    return state.hasHoles || !isNearest || isOn(state.blend) || isOn(state.alphaTest) || isOn(state.cullFace) ||
-           !isOn(state.depthTest) || (depth && !depth->getWriteMask()) ||
-           (polygons &&
-            (polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
-             polygons->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL));
+    return state.hasHoles || !isNearest || isOn(state.blend) || isOn(state.alphaTest) ||
+           isOn(state.cullFace) || !isOn(state.depthTest) || (depth && !depth->getWriteMask()) ||
+           (polygons && (polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL ||
+                         polygons->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL));
 }
 
 bool CasterCollector::isLeftOut(const osg::Drawable& drawable, const State& state) const
 {
     if (_transparent == TransparentCasters::ALL || !(state.blend & osg::StateAttribute::ON))
         return false;
-    const float alpha = alphaOf(drawable, static_cast<const osg::Material*>(state.material.attribute));
+    const float alpha =
+        alphaOf(drawable, static_cast<const osg::Material*>(state.material.attribute));
     return alpha < (_transparent == TransparentCasters::NONE ? 1.0f : 0.5f);
 }
 

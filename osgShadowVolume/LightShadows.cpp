@@ -135,7 +135,8 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                     toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
                 {
                     decision.casters.push_back(i);
-                    // z-pass leaves out the near cap, which lies in a surface that hides what is behind.
+                    // z-pass leaves out the near cap, which lies in a surface that hides what is
+                    // behind.
                     decision.needsZFail.push_back(_isClipped || _casters[i].seenThrough ||
                                                   toNear.mayTouch(boxes[i]));
                 }

@@ -38,8 +38,8 @@ enum KitBits : std::uint32_t
     Transparent = 8, ///< Looks visibility up by its depth.
     NumberShift = 4,
     TypesShift = 8,
-    TechniqueShift = 24,   ///< LightShadows::getVariantBits(), three bits.
-    ShowShift = 27,        ///< Show, three bits.
+    TechniqueShift = 24,    ///< LightShadows::getVariantBits(), three bits.
+    ShowShift = 27,         ///< Show, three bits.
     FaceNormals = 1u << 30, ///< The model has no normals: those of its triangles.
     Reflecting = 1u << 31   ///< A mirror.
 };

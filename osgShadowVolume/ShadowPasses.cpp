@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/ShadowPasses.h>
 
-#include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/Shaders.h>
+#include <osgShadowVolume/ShadowTargets.h>
 #include <osgShadowVolume/VolumeProgram.h>
 
 #include <osg/BlendEquation>
@@ -87,18 +87,18 @@ void setVolumeState(osg::StateSet& state, ShadowPasses::Count count, bool caps)
     // Nothing of a volume may be lost before the near or behind the far plane. Under z-pass no
     // volume comes near the near plane, and what lies before it must not count.
     state.setMode(GL_DEPTH_CLAMP, zFail ? On : Off);
-    state.setAttributeAndModes(shown ? new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA,
-                                                          osg::BlendFunc::ONE_MINUS_SRC_ALPHA)
-                                     : new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE),
-                               On);
+    state.setAttributeAndModes(
+        shown ? new osg::BlendFunc(osg::BlendFunc::SRC_ALPHA, osg::BlendFunc::ONE_MINUS_SRC_ALPHA)
+              : new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE),
+        On);
     state.setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
     state.setAttribute(new osg::ColorMask, On);
     for (GLenum mode : {GL_CULL_FACE, GL_STENCIL_TEST, GL_ALPHA_TEST, GL_COLOR_LOGIC_OP})
         state.setMode(mode, Off);
     // A near cap lies in the surface that casts. It has to count as behind it, so that a surface
     // is in its own shadow exactly where light comes from behind. A small share of the slope makes
-    // up for what two rasterizations of one triangle differ by; a whole one would push caps that the
-    // near plane cuts behind other surfaces.
+    // up for what two rasterizations of one triangle differ by; a whole one would push caps that
+    // the near plane cuts behind other surfaces.
     if (caps)
         state.setAttributeAndModes(new osg::PolygonOffset(1.0f / 64.0f, 4.0f), On);
 }
@@ -188,7 +188,8 @@ osg::ref_ptr<osg::Program> ShadowPasses::makeProgram(const Key& key)
     {
         osg::ref_ptr<osg::Shader> text = osgDB::readRefShaderFileWithFallback(
             stage.type, std::string("osgShadowVolume/") + stage.file, stage.text);
-        osg::ref_ptr<osg::Shader> shader = new osg::Shader(stage.type, head + text->getShaderSource());
+        osg::ref_ptr<osg::Shader> shader =
+            new osg::Shader(stage.type, head + text->getShaderSource());
         shader->setName(std::string("osgShadowVolume/") + stage.file);
         program->addShader(shader);
     }

@@ -26,8 +26,8 @@ public:
         auto& free = _free[contextID];
         ++_uses;
         // Of a window that was resized, of a number of lights that has changed.
-        free.erase(std::remove_if(free.begin(), free.end(), [this](const Free& f)
-                                  { return f.use + UsesUnused < _uses; }),
+        free.erase(std::remove_if(free.begin(), free.end(),
+                                  [this](const Free& f) { return f.use + UsesUnused < _uses; }),
                    free.end());
         const auto found =
             std::find_if(free.begin(), free.end(),

@@ -112,8 +112,8 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
             if (!isReceiver(item))
                 return;
             hasTransparent = hasTransparent || !isOpaque(item);
-            _hasPolygonOffset = _hasPolygonOffset ||
-                                item.state->isOn(osgMultiRender::SurfaceState::PolygonOffset);
+            _hasPolygonOffset =
+                _hasPolygonOffset || item.state->isOn(osgMultiRender::SurfaceState::PolygonOffset);
         });
     GLint viewport[4];
     glGetIntegerv(GL_VIEWPORT, viewport);
@@ -294,8 +294,8 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
     const double share = double(decision.bounds.width) * decision.bounds.height /
                          (double(layout.width) * layout.height);
     _descriptions[light] = std::to_string(casters) + (casters == 1 ? " caster" : " casters") +
-                           ", z-fail for " + std::to_string(zFail) + ", technique=" +
-                           nameOf(_technique) + ", on " +
+                           ", z-fail for " + std::to_string(zFail) +
+                           ", technique=" + nameOf(_technique) + ", on " +
                            std::to_string(std::lround(100.0 * share)) + " % of the screen";
 }
 

@@ -59,7 +59,7 @@ private:
     unsigned int _frameNumber = 0;
     std::vector<osg::ref_ptr<CasterMesh>> _meshes; ///< Parallel to the casters; null where unused.
     osg::ref_ptr<osg::StateSet> _lookUp;
-    int _layers = 0; ///< That were found in the view.
+    int _layers = 0;                ///< That were found in the view.
     bool _hasPolygonOffset = false; ///< Of a receiver.
     unsigned int _drawCalls = 0;
     std::vector<std::string> _descriptions;

@@ -161,9 +161,9 @@ MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, con
             else if (questions && questions-- &&
                      isEdgeNear(truth, light, sample, ndcX, ndcY, 2.0 / width, 2.0 / height))
                 ++result.wrongBand;
-            else if (questions && (truth.isWithinDepthQuantum(light, ndcX, ndcY, seen) ||
-                                   truth.isWithinSnapping(light, ndcX, ndcY,
-                                                          {2.0 / width, 2.0 / height})))
+            else if (questions &&
+                     (truth.isWithinDepthQuantum(light, ndcX, ndcY, seen) ||
+                      truth.isWithinSnapping(light, ndcX, ndcY, {2.0 / width, 2.0 / height})))
                 ++result.withinQuantum;
             else if (isWithinLightRounding(truth, light, ndcX, ndcY, seen))
                 ++result.withinRounding;

@@ -23,12 +23,12 @@ enum class Zone : std::uint8_t
 /// A mask beside the truth. Pixels outside a spot's cone count as right if they are not background.
 struct MaskDifference
 {
-    unsigned int object = 0;        ///< Pixels that show an object.
-    unsigned int band = 0;          ///< Of these and of the background beside them.
-    unsigned int grazing = 0;       ///< |N.L| < 0.02, not in the band.
-    unsigned int shadowed = 0;      ///< By the truth.
-    unsigned int wrongBand = 0;     ///< Wrong, within a pixel of an edge of the truth.
-    unsigned int wrongGrazing = 0;  ///< Wrong at grazing light.
+    unsigned int object = 0;       ///< Pixels that show an object.
+    unsigned int band = 0;         ///< Of these and of the background beside them.
+    unsigned int grazing = 0;      ///< |N.L| < 0.02, not in the band.
+    unsigned int shadowed = 0;     ///< By the truth.
+    unsigned int wrongBand = 0;    ///< Wrong, within a pixel of an edge of the truth.
+    unsigned int wrongGrazing = 0; ///< Wrong at grazing light.
     /// Wrong, proved to lie within one depth quantum or the rasterizer's snapping of corners.
     unsigned int withinQuantum = 0;
     /// Wrong, and right for a light on the other side of a plane in which it lies but for rounding.

@@ -18,8 +18,8 @@
 #include <osg/Geometry>
 #include <osg/LightSource>
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 using namespace osgShadowVolume;

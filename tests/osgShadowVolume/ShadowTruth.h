@@ -69,9 +69,9 @@ public:
     bool isWithinDepthQuantum(const Light& light, double x, double y, Seen seen) const;
 
     /// Whether a face of a shadow volume (a caster or a side of its volume) lies before the surface
-    /// at (x, y) or behind it depending on where within 1/256 of a pixel, the size that a rasterizer
-    /// with 8 subpixel bits snaps corners to, and within a quantum of depth. Matters for faces that
-    /// are seen nearly edge-on. `pixel` is the size of one.
+    /// at (x, y) or behind it depending on where within 1/256 of a pixel, the size that a
+    /// rasterizer with 8 subpixel bits snaps corners to, and within a quantum of depth. Matters for
+    /// faces that are seen nearly edge-on. `pixel` is the size of one.
     bool isWithinSnapping(const Light& light, double x, double y, const osg::Vec2d& pixel) const;
 
     /// Row by row from the bottom, at the centers of the pixels; uses all cores.

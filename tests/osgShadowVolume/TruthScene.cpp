@@ -209,7 +209,8 @@ bool touches(const Triangle& triangle, const Frame& frame, const Light& light)
         return true;
     for (int k = 0; k < 3; ++k)
     {
-        const osg::Vec3d from(triangle.local[k]), edge = osg::Vec3d(triangle.local[(k + 1) % 3]) - from;
+        const osg::Vec3d from(triangle.local[k]),
+            edge = osg::Vec3d(triangle.local[(k + 1) % 3]) - from;
         const double length2 = edge.length2();
         const double share =
             length2 > 0.0 ? std::clamp((p - from) * edge / length2, 0.0, 1.0) : 0.0;
