@@ -161,6 +161,13 @@ void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
     }
 }
 
+bool CasterCollector::isWireframe(const State& state)
+{
+    const auto* polygons = static_cast<const osg::PolygonMode*>(state.polygonMode.attribute);
+    return polygons && polygons->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL &&
+           polygons->getMode(osg::PolygonMode::BACK) != osg::PolygonMode::FILL;
+}
+
 bool CasterCollector::isSeenThrough(const State& state)
 {
     using osg::StateAttribute;
@@ -239,6 +246,11 @@ void CasterCollector::apply(osg::Drawable& drawable)
     state.hasHoles = state.hasHoles || drawable.getCullCallback();
     if (drawable.getStateSet())
         addTo(state, *drawable.getStateSet());
+    if (isWireframe(state))
+    {
+        ++_leftOut["wireframes"];
+        return;
+    }
     if (isLeftOut(drawable, state))
     {
         ++_leftOut["transparent"];

@@ -48,7 +48,7 @@ struct Caster
 /// run, so what they hide casts. Left out and counted are nested Cameras, Projections, Billboards
 /// and ClearNodes with all that is below, and:
 ///
-/// - Text, particles, points and lines.
+/// - Text, particles, points and lines, and polygons that are drawn as such (PolygonMode).
 /// - Nodes and Drawables with a user value `castShadow` of false, 0, "false" or "0", or a
 /// description
 ///   "castShadow=0", with all that is below.
@@ -120,6 +120,8 @@ private:
     bool casts(const osg::Node& node);
     void addTo(State& state, const osg::StateSet& stateSet) const;
     bool isLeftOut(const osg::Drawable& drawable, const State& state) const;
+    /// Triangles drawn as lines or points cast no more than those.
+    static bool isWireframe(const State& state);
     static bool isSeenThrough(const State& state);
     Caster& casterFor(const osg::Drawable& drawable);
     /// Matrices that OSG's nodes ask for seldom are made only then: it takes longer than the rest.

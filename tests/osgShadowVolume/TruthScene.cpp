@@ -6,6 +6,7 @@
 #include <osg/FrontFace>
 #include <osg/LightSource>
 #include <osg/NodeVisitor>
+#include <osg/PolygonMode>
 #include <osg/TriangleFunctor>
 
 #include <algorithm>
@@ -79,6 +80,22 @@ int handednessOf(const osg::Matrixd& m)
     return determinant > 0.0 ? 1 : determinant < 0.0 ? -1 : 0;
 }
 
+/// Polygons that are drawn as lines or points cast nothing.
+bool isWireframe(const osg::NodePath& path, const osg::StateSet* own)
+{
+    const osg::PolygonMode* mode = nullptr;
+    const auto look = [&mode](const osg::StateSet* stateSet)
+    {
+        if (const auto* attribute =
+                stateSet ? stateSet->getAttribute(osg::StateAttribute::POLYGONMODE) : nullptr)
+            mode = static_cast<const osg::PolygonMode*>(attribute);
+    };
+    for (const osg::Node* node : path)
+        look(node->getStateSet());
+    look(own);
+    return mode && mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL;
+}
+
 class Collector : public osg::NodeVisitor
 {
 public:
@@ -117,6 +134,8 @@ public:
         frame.toWorld = osg::computeLocalToWorld(getNodePath());
         frame.fromWorld = osg::Matrixd::inverse(frame.toWorld);
         frame.handedness = handednessOf(frame.toWorld);
+        if (isWireframe(getNodePath(), drawable.getStateSet()))
+            return;
         osg::TriangleFunctor<TriangleSink> sink;
         sink.triangles = &_scene.triangles;
         sink.frame = static_cast<unsigned int>(_scene.frames.size());
