@@ -11,6 +11,7 @@
 #include <osg/LOD>
 #include <osg/MatrixTransform>
 #include <osg/PagedLOD>
+#include <osg/PolygonMode>
 #include <osg/PositionAttitudeTransform>
 #include <osg/Projection>
 #include <osg/Sequence>
@@ -101,10 +102,21 @@ public:
     }
 
 private:
+    /// The nearest PolygonMode of the path that says so.
+    static bool isWireframe(const osgUtil::StateGraph* graph)
+    {
+        for (; graph; graph = graph->_parent)
+            if (const osg::StateSet* state = graph->getStateSet())
+                if (const auto* mode = static_cast<const osg::PolygonMode*>(
+                        state->getAttribute(osg::StateAttribute::POLYGONMODE)))
+                    return mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL;
+        return false;
+    }
+
     static void addLeaves(const osgUtil::StateGraph& graph, Matrices& matrices)
     {
         for (const auto& leaf : graph._leaves)
-            if (whyNoCaster(*leaf->getDrawable()) == NoCaster::CASTS)
+            if (whyNoCaster(*leaf->getDrawable()) == NoCaster::CASTS && !isWireframe(&graph))
                 matrices[leaf->getDrawable()].insert(bitsOf(*leaf->_modelview));
         for (const auto& child : graph._children)
             addLeaves(*child.second, matrices);
