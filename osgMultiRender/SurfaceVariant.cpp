@@ -34,7 +34,7 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
         new osg::Shader(osg::Shader::VERTEX, version + source.vertex);
     osg::ref_ptr<osg::Shader> fragment = new osg::Shader(
         osg::Shader::FRAGMENT, version + source.fragment + snippet.fragment + snippet.output +
-                                       (snippet.output.empty() ? colorMain : outputMain));
+                                   (snippet.output.empty() ? colorMain : outputMain));
     vertex->setName("osgMultiRender vertex, " + name);
     fragment->setName("osgMultiRender fragment, " + name);
     _program->setName("osgMultiRender " + name);

@@ -11,9 +11,9 @@
 #include <osgText/TextBase>
 
 #include <algorithm>
+#include <cstring>
 #include <set>
 #include <string>
-#include <cstring>
 #include <type_traits>
 
 namespace osgShadowVolume

@@ -27,8 +27,8 @@ struct EyeLight
     bool isDirectional() const { return type == Directional || type == DirectionalSpot; }
 
     Type type = Directional;
-    int number = 0;           ///< LightSource number, GL_LIGHT0 + number.
-    std::string name;         ///< For plans; may be empty.
+    int number = 0;   ///< LightSource number, GL_LIGHT0 + number.
+    std::string name; ///< For plans; may be empty.
     bool castsShadow = true;
     bool isHeadlight = false; ///< Of the viewer: placed in eye coordinates.
     glm::dvec3 position{0.0}; ///< Directional: the unit vector towards the light.

@@ -39,8 +39,7 @@ public:
         Context();
         /// Takes the light data of a pass. Draw thread of the context only.
         void set(const LitPass* pass, const std::vector<const EyeLight*>& eyeLights,
-                 const std::vector<float>& shadows,
-                 const std::vector<std::int32_t>& list);
+                 const std::vector<float>& shadows, const std::vector<std::int32_t>& list);
         /// Whether `pass` was the last to set its data.
         bool isOf(const LitPass* pass) const { return _pass == pass; }
 

@@ -11,8 +11,8 @@ namespace osgShadowVolume
 namespace
 {
 
-constexpr GLenum texture2D = GL_TEXTURE_2D, texture2DArray = 0x8C1A,
-                 texture2DMultisample = 0x9100, texture2DMultisampleArray = 0x9102;
+constexpr GLenum texture2D = GL_TEXTURE_2D, texture2DArray = 0x8C1A, texture2DMultisample = 0x9100,
+                 texture2DMultisampleArray = 0x9102;
 
 } // namespace
 
@@ -76,7 +76,9 @@ void TargetTexture::apply(osg::State& state) const
         // Formats of transfers must fit the kind of the internal format, though nothing is sent.
         const bool isDepth = _internalFormat == GL_DEPTH_COMPONENT32F;
         const bool isInteger = _internalFormat == GL_R32UI;
-        const GLenum format = isDepth ? GL_DEPTH_COMPONENT : isInteger ? GL_RED_INTEGER_EXT : GL_RED;
+        const GLenum format = isDepth     ? GL_DEPTH_COMPONENT
+                              : isInteger ? GL_RED_INTEGER_EXT
+                                          : GL_RED;
         const GLenum type = isInteger ? GL_UNSIGNED_INT : GL_FLOAT;
         applyTexParameters(target, state);
         if (_layers)

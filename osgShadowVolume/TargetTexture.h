@@ -14,7 +14,8 @@ class TargetTexture : public osg::Texture
 public:
     /// `layers` 0 makes a plain 2D texture, 1 and more an array. `samples` 1 is not multisampled.
     TargetTexture(GLenum internalFormat, int width, int height, int layers, int samples);
-    TargetTexture(const TargetTexture& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+    TargetTexture(const TargetTexture& other,
+                  const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
     META_StateAttribute(osgShadowVolume, TargetTexture, TEXTURE)
 
     int compare(const osg::StateAttribute& other) const override;

@@ -12,9 +12,10 @@ namespace osgShadowVolume
 
 /// The programs that draw shadow volumes into a counter, an R32F target with additive blending.
 ///
-/// Uniforms: `osgsv_localLight` and `osgsv_lightRest` (MeshLight), `osgsv_end` (w of extrusions), `osgsv_handedness` (1, or -1 where the modelview's
-/// determinant is negative); where the GPU judges `osgsv_meshScale` (EdgeMesh::scale); SILHOUETTE
-/// has `osgsv_weight` instead. The modelview and projection matrices are GL's own.
+/// Uniforms: `osgsv_localLight` and `osgsv_lightRest` (MeshLight), `osgsv_end` (w of extrusions),
+/// `osgsv_handedness` (1, or -1 where the modelview's determinant is negative); where the GPU
+/// judges `osgsv_meshScale` (EdgeMesh::scale); SILHOUETTE has `osgsv_weight` instead. The modelview
+/// and projection matrices are GL's own.
 enum class VolumePart
 {
     TESS_SIDES,     ///< CasterMesh::getPatches(). OpenGL 4.0.
@@ -30,8 +31,7 @@ OSGSHADOWVOLUME_EXPORT std::string volumeShaderText(VolumePart part, osg::Shader
 
 /// Makes the program; nothing is compiled yet. One that is shown writes the uniform `osgsv_color`
 /// where the multiplicity is not 0, instead of counts.
-OSGSHADOWVOLUME_EXPORT osg::ref_ptr<osg::Program> makeVolumeProgram(VolumePart part,
-                                                                    int glslVersion,
-                                                                    bool shown = false);
+OSGSHADOWVOLUME_EXPORT osg::ref_ptr<osg::Program>
+makeVolumeProgram(VolumePart part, int glslVersion, bool shown = false);
 
 } // namespace osgShadowVolume

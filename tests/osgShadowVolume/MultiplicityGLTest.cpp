@@ -109,8 +109,8 @@ protected:
         state->addUniform(
             new osg::Uniform("osgsv_localLight", osg::Vec4(light.light.x, light.light.y,
                                                            light.light.z, light.light.w)));
-        state->addUniform(new osg::Uniform(
-            "osgsv_lightRest", osg::Vec3(light.rest.x, light.rest.y, light.rest.z)));
+        state->addUniform(new osg::Uniform("osgsv_lightRest",
+                                           osg::Vec3(light.rest.x, light.rest.y, light.rest.z)));
         state->addUniform(new osg::Uniform("osgsv_meshScale", edges.scale));
         state->addUniform(new osg::Uniform("osgsv_handedness", 1.0f));
         support::NotifyCapture capture;

@@ -36,4 +36,5 @@ HardCase book(unsigned int count);
 HardCase moebiusStrip(unsigned int steps);
 
 /// Vertices at which the signed multiplicities of the edges do not sum to 0: leaks.
-std::size_t openVertices(const osgShadowVolume::EdgeMesh& mesh, const osgShadowVolume::MeshLight& light);
+std::size_t openVertices(const osgShadowVolume::EdgeMesh& mesh,
+                         const osgShadowVolume::MeshLight& light);
