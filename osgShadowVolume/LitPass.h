@@ -93,6 +93,17 @@ private:
     LightSet& setOf(const osgMultiRender::SurfaceState& state);
     void chooseGridAxes(const osgMultiRender::SurfaceFrame& frame);
     glm::dvec3 toGrid(const glm::dvec3& eye) const;
+    glm::dvec3 fromGrid(const glm::dvec3& grid) const;
+    std::vector<EyeLight> collectLights(const osgMultiRender::SurfaceFrame& frame);
+    /// Vertex lighting: the lights that GL has.
+    void leaveToGL(const std::vector<EyeLight>& all);
+    /// Sets the box of what is in view; true if it is finite and holds everything.
+    bool measureBox(const osgMultiRender::SurfaceFrame& frame);
+    /// Fills the list of lights with those that reach something in view; returns their reaches.
+    std::vector<double> keepReaching(const std::vector<EyeLight>& all, bool everythingBounded);
+    void planShadows(osg::RenderInfo& renderInfo, bool everythingBounded,
+                     const std::vector<double>& limits);
+    void choosePoints();
     void fillReach(LightSet& set) const;
     void makeGrid(LightSet& set);
     std::uint32_t listOf(std::vector<std::uint32_t> lights);
