@@ -162,7 +162,7 @@ const osg::StateSet* LitPass::mergeUnder(std::initializer_list<const osg::StateS
 }
 
 void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
-                    std::uint32_t number)
+                    const osgUtil::RenderLeaf&, std::uint32_t number)
 {
     const auto [applied, isNew] = _applied.emplace(&variant, number);
     if (!isNew && applied->second == number)
