@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgShadowVolume/Framebuffer.h>
-#include <osgShadowVolume/TargetTexture.h>
+#include <osgMultiRender/Framebuffer.h>
+#include <osgMultiRender/TargetTexture.h>
 
 #include <osg/StateSet>
 #include <osg/Texture2D>
@@ -11,6 +11,10 @@
 
 namespace osgShadowVolume
 {
+
+using osgMultiRender::Framebuffer;
+using osgMultiRender::FramebufferVisit;
+using osgMultiRender::TargetTexture;
 
 /// What the depth maps of one view look like.
 struct MapLayout

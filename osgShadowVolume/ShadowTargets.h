@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgShadowVolume/Framebuffer.h>
-#include <osgShadowVolume/TargetTexture.h>
+#include <osgMultiRender/Framebuffer.h>
+#include <osgMultiRender/TargetTexture.h>
 
 #include <osg/StateSet>
 
 namespace osgShadowVolume
 {
+
+using osgMultiRender::Framebuffer;
+using osgMultiRender::FramebufferVisit;
+using osgMultiRender::TargetTexture;
 
 /// What the targets of one view look like.
 struct TargetLayout

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgMultiRender/Export.h>
+
 #include <osg/GLExtensions>
 #include <osg/State>
 
-namespace osgShadowVolume
+namespace osgMultiRender
 {
 
 /// A framebuffer object of one graphics context, without attachments of its own.
-class Framebuffer
+class OSGMULTIRENDER_EXPORT Framebuffer
 {
 public:
     /// `flipped`: its rows count from the top, as in windows of Mesa. Needs canFlip().
@@ -21,8 +23,9 @@ public:
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
 
-    /// Binds it for drawing, into colour attachment 0 or into depth alone. Attachments stay.
-    void bind(osg::State& state, bool color);
+    /// Binds it for drawing into the first `colors` colour attachments; 0 is depth alone.
+    /// Attachments stay.
+    void bind(osg::State& state, int colors);
     void releaseGLObjects(osg::State* state) const;
 
     static bool canFlip(const osg::State& state);
@@ -35,7 +38,7 @@ private:
 
 /// While it lives, drawing may visit other framebuffers: it puts back the bindings, the viewport,
 /// the scissor and the values for clearing. There is no scissor test at first.
-class FramebufferVisit
+class OSGMULTIRENDER_EXPORT FramebufferVisit
 {
 public:
     explicit FramebufferVisit(osg::State& state);
@@ -53,4 +56,4 @@ private:
     GLint _scissor[4] = {};
 };
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender
