@@ -10,7 +10,6 @@
 #include <osgText/TextBase>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <string>
 
@@ -75,9 +74,6 @@ NoCaster whyNoCaster(const osg::Drawable& drawable)
         return hasTriangles(drawable) ? NoCaster::CASTS : NoCaster::POINTS_AND_LINES;
     if (dynamic_cast<const osgText::TextBase*>(&drawable))
         return NoCaster::TEXT;
-    // By name: the kit does not need the library for anything else.
-    if (std::strcmp(drawable.libraryName(), "osgParticle") == 0)
-        return NoCaster::PARTICLES;
     return hasTriangles(drawable) ? NoCaster::CASTS : NoCaster::NO_TRIANGLES;
 }
 

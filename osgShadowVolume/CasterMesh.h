@@ -20,9 +20,8 @@ enum class NoCaster
 {
     CASTS,
     TEXT,
-    PARTICLES,
     POINTS_AND_LINES, ///< Only these, or nothing at all.
-    NO_TRIANGLES      ///< A class of Drawable that can't say what its triangles are.
+    NO_TRIANGLES      ///< A class of Drawable that can't say what its triangles are: particles.
 };
 
 /// Looks at its class and its primitive types, not at vertices.
