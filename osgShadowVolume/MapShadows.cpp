@@ -19,14 +19,9 @@ namespace
 
 constexpr unsigned int mostSamples = 16; ///< On a side.
 
-glm::dvec3 toGlm(const osg::Vec3d& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 template <class Box> Hexahedron toHexahedron(const Box& box, const glm::dmat4& modelview)
 {
-    return boxOf(toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), modelview);
+    return boxOf(glm::make_vec3(box._min.ptr()), glm::make_vec3(box._max.ptr()), modelview);
 }
 
 glm::dmat4 worldFrom(const osgMultiRender::SurfaceFrame& frame)
