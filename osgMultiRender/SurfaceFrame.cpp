@@ -307,6 +307,19 @@ void SurfaceFrame::proxyDrawn(osg::RenderInfo& renderInfo)
             pass.pass->drawn(renderInfo);
 }
 
+void SurfaceFrame::forEachLeaf(
+    const SurfacePass& pass,
+    const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const
+{
+    const auto found = std::find_if(_passes.begin(), _passes.end(),
+                                    [&](const Pass& p) { return p.pass.get() == &pass; });
+    const unsigned int bit = 1u << (found - _passes.begin());
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        for (const osgUtil::RenderLeaf* leaf : _bins[bin])
+            if (passesOf(leaf->_parent) & bit)
+                f(*leaf, _isOrdered[bin]);
+}
+
 void SurfaceFrame::forEachItem(const std::function<void(const SurfaceItem&)>& f) const
 {
     for (const auto& items : _items)

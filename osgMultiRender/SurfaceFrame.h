@@ -72,6 +72,10 @@ public:
     /// To be called once by each proxy when it has been drawn.
     void proxyDrawn(osg::RenderInfo& renderInfo);
 
+    /// Calls `f` for each leaf of the scope of `pass`, and tells whether it lies in a bin sorted by
+    /// depth or traversal.
+    void forEachLeaf(const SurfacePass& pass,
+                     const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const;
     /// Calls `f` for each leaf. Only from SurfacePass::end() on.
     void forEachItem(const std::function<void(const SurfaceItem&)>& f) const;
 

@@ -31,7 +31,10 @@ std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
     case GL_RG32F:
         return {GL_RG, GL_FLOAT};
     case GL_RGBA8:
+    case GL_RGB10_A2:
+    case GL_RGBA16:
     case GL_RGBA16F_ARB:
+    case GL_RGBA32F_ARB:
         return {GL_RGBA, GL_FLOAT};
     default:
         return {GL_RED, GL_FLOAT};
@@ -40,7 +43,17 @@ std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
 
 int bytesOf(GLint internalFormat)
 {
-    return internalFormat == GL_RG32F || internalFormat == GL_RGBA16F_ARB ? 8 : 4;
+    switch (internalFormat)
+    {
+    case GL_RG32F:
+    case GL_RGBA16:
+    case GL_RGBA16F_ARB:
+        return 8;
+    case GL_RGBA32F_ARB:
+        return 16;
+    default:
+        return 4;
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/VolumeShadows.h>
 
+#include <osgMultiRender/DrawTarget.h>
 #include <osgShadowVolume/CasterDraw.h>
 #include <osgShadowVolume/DepthBounds.h>
 #include <osgShadowVolume/EnumNames.h>
@@ -64,15 +65,9 @@ VolumeShadows::~VolumeShadows()
 void VolumeShadows::begin(osg::RenderInfo& renderInfo)
 {
     const auto* gl = renderInfo.getState()->get<osg::GLExtensions>();
-    GLint samples = 0;
-    glGetIntegerv(GL_SAMPLES, &samples);
-    _tier.samples = std::max(1, samples);
-    // Mesa draws windows upside down, and so their samples lie elsewhere in a pixel than those of
-    // framebuffer objects.
-    GLint framebuffer = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &framebuffer);
-    _isFlipped =
-        _tier.samples > 1 && framebuffer == 0 && Framebuffer::canFlip(*renderInfo.getState());
+    const auto target = osgMultiRender::DrawTarget::current(*renderInfo.getState());
+    _tier.samples = target.samples;
+    _isFlipped = target.flipped;
     const float version = std::min(gl->glVersion, gl->glslLanguageVersion);
     _tier.language = std::clamp(int(std::lround(version * 100.0f)), 330, 450);
     const bool hasPrecise =
