@@ -10,6 +10,10 @@
 #include <osgShadowVolume/TargetPool.h>
 
 #include <osg/Geometry>
+#include <osg/Notify>
+
+#include <atomic>
+#include <string>
 
 namespace osgShadowVolume
 {
@@ -36,6 +40,20 @@ struct ShadowResources
     osg::ref_ptr<osg::Geometry> screen = makeScreen(); ///< One triangle over the viewport.
     osg::ref_ptr<CasterCache> casters = CasterCache::instance();
 
+    /// Says on the console, the first time, that there are no shadows; returns the reason for
+    /// plans.
+    std::string warnIncomplete(const std::string& status, int width, int height, int samples)
+    {
+        const std::string reason = "OpenGL can't draw into buffers of " + std::to_string(width) +
+                                   "x" + std::to_string(height) + " pixels with " +
+                                   std::to_string(samples) +
+                                   (samples == 1 ? " sample (" : " samples (") + status + ")";
+        if (!_saidIncomplete.exchange(true))
+            OSG_WARN << "osgShadowVolume::ShadowedScene: no shadows, because " << reason
+                     << "; fewer pixels or samples may help" << std::endl;
+        return "no shadow: " + reason;
+    }
+
     void releaseGLObjects(osg::State* state)
     {
         targets.releaseGLObjects(state);
@@ -45,6 +63,9 @@ struct ShadowResources
         silhouettes.releaseGLObjects(state);
         screen->releaseGLObjects(state);
     }
+
+private:
+    std::atomic<bool> _saidIncomplete{false};
 };
 
 } // namespace osgShadowVolume
