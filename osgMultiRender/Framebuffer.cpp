@@ -5,6 +5,8 @@
 #include <osg/FrameBufferObject>
 #include <osg/GLObjects>
 
+#include <sstream>
+
 #ifndef GL_FRAMEBUFFER_FLIP_Y_MESA
 #define GL_FRAMEBUFFER_FLIP_Y_MESA 0x8BBB
 #endif
@@ -58,6 +60,17 @@ bool Framebuffer::canFlip(const osg::State& state)
 {
     return state.get<osg::GLExtensions>()->glFramebufferParameteri &&
            osg::isGLExtensionSupported(state.getContextID(), "GL_MESA_framebuffer_flip_y");
+}
+
+std::string Framebuffer::whyIncomplete(const osg::State& state)
+{
+    const GLenum status =
+        state.get<osg::GLExtensions>()->glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER_EXT);
+    if (status == GL_FRAMEBUFFER_COMPLETE_EXT)
+        return {};
+    std::ostringstream text;
+    text << "framebuffer status 0x" << std::hex << status;
+    return text.str();
 }
 
 void Framebuffer::releaseGLObjects(osg::State* state) const

@@ -6,6 +6,8 @@
 #include <osg/GLExtensions>
 #include <osg/State>
 
+#include <string>
+
 namespace osgMultiRender
 {
 
@@ -29,6 +31,9 @@ public:
     void releaseGLObjects(osg::State* state) const;
 
     static bool canFlip(const osg::State& state);
+    /// Of the framebuffer that is bound for drawing: empty, or why OpenGL can't draw into it, as in
+    /// "framebuffer status 0x8cd6".
+    static std::string whyIncomplete(const osg::State& state);
 
 private:
     const unsigned int _contextID;

@@ -6,6 +6,9 @@
 
 #include <osg/StateSet>
 
+#include <optional>
+#include <string>
+
 namespace osgShadowVolume
 {
 
@@ -49,6 +52,10 @@ public:
     int getFlippedHeight() const { return _layout.flipped ? _layout.height : 0; }
     std::size_t getBytes() const;
 
+    /// Empty, or why OpenGL can't draw into them. Asks it the first time only, and then leaves
+    /// another framebuffer bound.
+    const std::string& whyIncomplete(osg::State& state);
+
     /// Binds the framebuffer for the opaque surfaces' depths; no colour.
     void bindDepth(osg::State& state);
     /// ... for the depths of a transparent layer, which also go to the array of layers.
@@ -71,6 +78,7 @@ protected:
 
 private:
     const TargetLayout _layout;
+    std::optional<std::string> _whyIncomplete;
     Framebuffer _depth, _layer, _counting, _masking;
     osg::ref_ptr<TargetTexture> _opaqueDepth;
     osg::ref_ptr<TargetTexture> _peeledDepth[2]; ///< By turns.
