@@ -154,10 +154,9 @@ void BufferTexture::resizePages(osg::State& state, std::size_t bytes)
     const int layers = static_cast<int>((texels + pageTexels - 1) / pageTexels);
     // Less than a page needs no whole one.
     const int rows = layers > 1 ? PageSize : static_cast<int>((texels + PageSize - 1) / PageSize);
-    // The size is part of the profile by which OSG's pool finds textures to use again.
-    dirtyTextureObject();
-    generateAndAssignTextureObject(_contextID, texture2DArray, 1, internalFormatOf(_wordsPerTexel),
-                                   PageSize, rows, layers, 0);
+    // One texture object for its life: osg::State would not bind another one in its place.
+    if (!getTextureObject(_contextID))
+        generateAndAssignTextureObject(_contextID, texture2DArray);
     bind(state);
     applyTexParameters(texture2DArray, state);
     gl->glTexImage3D(texture2DArray, 0, static_cast<GLint>(internalFormatOf(_wordsPerTexel)),
