@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+namespace osgLabels
+{
+
+/// Texture units of osgLabels while leaves are drawn. A model has 0 to 3, osgShadowVolume 9 to 15.
+enum LabelUnits
+{
+    RowsUnit = 4,
+    TextsUnit = 5,
+    RecordsUnit = 6, ///< Object records.
+    GlyphsUnit = 7,
+    StylesUnit = 8
+};
+
+} // namespace osgLabels
