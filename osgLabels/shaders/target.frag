@@ -1,13 +1,14 @@
 // Says where on its label a fragment lies, from gl_FragCoord alone: so any vertex stage will do, and
 // what is near the eye is exact, however long the object is.
 //
-// OSGLABELS_OBJECT is the index of the object's record. osgLabels_frame: columns of the matrix from
-// (ndc.x w, ndc.y w, w or ndc.z w) to local coordinates relative to the eye, what is added, the eye
-// in local coordinates, then right, up and back of the view in local coordinates.
+// OSGLABELS_OBJECT is the index of the object's record.
 
-uniform vec4 osgLabels_viewport;   // x, y, 2 / width, 2 / height
-uniform vec2 osgLabels_depth;      // ndc.z of depth 0, its growth; 0, 0 in perspective
-uniform vec3 osgLabels_frame[8];
+uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
+uniform vec2 osgLabels_depth;    // ndc.z at depth 0 and its growth where rays are parallel, else 0
+// Local coordinates: what (ndc.x w, ndc.y w, w or ndc.z) weigh and what is added, relative to the
+// eye; the eye; then the view's right, up and back, and the world's up.
+uniform vec3 osgLabels_frame[9];
+uniform vec2 osgLabels_layoutOfText; // height as a share of the room, least gap in em
 uniform usamplerBuffer osgLabels_objects;
 
 osgLabels_Object osgLabels_objectOf(int index)
@@ -20,7 +21,7 @@ osgLabels_Object osgLabels_objectOf(int index)
 }
 
 // The identifier at this fragment, and where on its text; place.x < 0 off the text.
-uint osgLabels_find(out osgLabels_Text text, out vec2 place, out mat2 footprint)
+uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprint)
 {
     float w = 1.0 / gl_FragCoord.w;
     vec2 ndc = (gl_FragCoord.xy - osgLabels_viewport.xy) * osgLabels_viewport.zw - 1.0;
@@ -31,7 +32,6 @@ uint osgLabels_find(out osgLabels_Text text, out vec2 place, out mat2 footprint)
                     osgLabels_frame[2] * clip.z + osgLabels_frame[3];
     vec3 dx = dFdx(position);
     vec3 dy = dFdy(position);
-    vec3 toEye = parallel ? osgLabels_frame[7] : -position;
 
     place = vec2(-1.0);
     footprint = mat2(0.0);
@@ -42,9 +42,16 @@ uint osgLabels_find(out osgLabels_Text text, out vec2 place, out mat2 footprint)
     text = osgLabels_textOf(object.id);
     if (text.length == 0)
         return object.id;
+    osgLabels_View view;
+    view.base = osgLabels_frame[4] - object.origin;
+    view.eye = parallel ? vec4(osgLabels_frame[7], 0.0) : vec4(view.base, 1.0);
+    view.screenRight = osgLabels_frame[5];
+    view.screenUp = osgLabels_frame[6];
+    view.up = osgLabels_frame[8];
+    view.height = osgLabels_layoutOfText.x;
+    view.gap = osgLabels_layoutOfText.y;
     osgLabels_Place found =
-        osgLabels_placeOn(object, position + (osgLabels_frame[4] - object.origin), dx, dy, toEye,
-                          osgLabels_frame[6], osgLabels_frame[5], osgLabels_width(text));
+        osgLabels_placeOn(object, position, dx, dy, view, osgLabels_width(text));
     if (found.inside)
     {
         place = found.place;

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/LabelPass.h>
+
+#include <osgLabels/LabelScene.h>
+#include <osgLabels/LabelUnits.h>
+
+#include <osg/BlendFunc>
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/GLExtensions>
+#include <osg/Viewport>
+
+#include <cmath>
+
+namespace osgLabels
+{
+
+using osgMultiRender::SurfaceItem;
+using osgMultiRender::SurfaceKey;
+using osgMultiRender::SurfaceSnippet;
+
+namespace
+{
+
+constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
+/// The object index' vertex attribute: free beside those of the fixed function on all drivers.
+constexpr unsigned int indexAttribute = 6;
+
+/// What OSG does not load.
+struct Extensions
+{
+    void(GL_APIENTRY* vertexAttribI1ui)(GLuint, GLuint) = nullptr;
+    void(GL_APIENTRY* clearBufferuiv)(GLenum, GLint, const GLuint*) = nullptr;
+    void(GL_APIENTRY* clearBufferfv)(GLenum, GLint, const GLfloat*) = nullptr;
+
+    static const Extensions& instance()
+    {
+        static const Extensions extensions = []
+        {
+            Extensions e;
+            osg::setGLExtensionFuncPtr(e.vertexAttribI1ui, "glVertexAttribI1ui");
+            osg::setGLExtensionFuncPtr(e.clearBufferuiv, "glClearBufferuiv");
+            osg::setGLExtensionFuncPtr(e.clearBufferfv, "glClearBufferfv");
+            return e;
+        }();
+        return extensions;
+    }
+};
+
+bool isParallel(const osg::Matrixd& projection)
+{
+    return projection(0, 3) == 0.0 && projection(1, 3) == 0.0 && projection(2, 3) == 0.0;
+}
+
+osg::Vec3d axisOf(LabelUp up)
+{
+    switch (up)
+    {
+    case LabelUp::X:
+        return {1.0, 0.0, 0.0};
+    case LabelUp::Y:
+        return {0.0, 1.0, 0.0};
+    case LabelUp::Z:
+        return {0.0, 0.0, 1.0};
+    case LabelUp::Screen:
+        break;
+    }
+    return {};
+}
+
+osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
+{
+    return osg::Matrixd::transform3x3(v, m);
+}
+
+} // namespace
+
+LabelPass::LabelPass(const LabelScene& scene)
+    : _resources(scene.getResources()), _settings(scene.getSettings())
+{
+}
+
+LabelPass::~LabelPass()
+{
+    if (_targets)
+        _resources.targets.release(_contextID, _targets);
+}
+
+void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
+{
+    osg::State& state = *renderInfo.getState();
+    _contextID = state.getContextID();
+    frame.forEachLeaf(*this, [this](const osgUtil::RenderLeaf& leaf, bool)
+                      { _labelled += _resources.objects.indexOf(leaf) != 0; });
+    _target = osgMultiRender::DrawTarget::current(state);
+    if (_labelled == 0)
+        _reason = "nothing labelled is in view";
+    else if (_target.several)
+        _reason = "the view writes several color buffers";
+    if (!_reason.empty())
+        return;
+    const auto* gl = state.get<osg::GLExtensions>();
+    _languageVersion = gl->glslLanguageVersion;
+    _isPaged = _resources.buffers.isPaged(state);
+    glGetIntegerv(GL_VIEWPORT, _viewport);
+    const osg::Matrixd* view =
+        const_cast<osgUtil::RenderStage&>(frame.getStage()).getInitialViewMatrix();
+    const osg::Vec3d up = axisOf(_settings.up);
+    _up = view ? rotated(up, *view) : up;
+    _isParallel = isParallel(state.getProjectionMatrix());
+    makeUnder(state);
+}
+
+void LabelPass::makeUnder(osg::State& state)
+{
+    _under = new osg::StateSet;
+    _under->merge(*_resources.buffers.update(state));
+    _under->merge(*_resources.objects.update(state));
+    const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, Over); };
+    add(new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
+                                                         2.0f / float(std::max(1, _viewport[2])),
+                                                         2.0f / float(std::max(1, _viewport[3])))));
+    add(new osg::Uniform("osgLabels_depth", _isParallel ? osg::Vec2(-1.0f, 2.0f) : osg::Vec2()));
+    add(new osg::Uniform("osgLabels_layoutOfText", osg::Vec2(_settings.height, _settings.gap)));
+    osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
+                                                        3 * int(LabelStyle::MaxStyles));
+    for (unsigned int i = 0; i < LabelStyle::MaxStyles; ++i)
+    {
+        const LabelStyle& style = _settings.styles[i < _settings.styles.size() ? i : 0];
+        looks->setElement(3 * i, style.ink);
+        looks->setElement(3 * i + 1, style.plate);
+        looks->setElement(3 * i + 2, osg::Vec4(style.outline, style.outlineWidth));
+    }
+    add(looks);
+}
+
+void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                         bool ordered, SurfaceKey& key, std::uint32_t& number)
+{
+    if (!_reason.empty())
+        return;
+    number = _resources.objects.indexOf(leaf);
+    // What has no program of ours could not say that nothing is written on it.
+    if (!ordered && state.isOpaque())
+        key.output = Diverted;
+    if (number)
+    {
+        key.output |= Labelled;
+        _direct += !(key.output & Diverted);
+    }
+    if (key.output && key.program)
+        key.output |= OwnProgram;
+    if (key.output && _isPaged)
+        key.output |= Paged;
+}
+
+void LabelPass::end(osg::RenderInfo&) {}
+
+SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
+{
+    SurfaceSnippet snippet;
+    const bool diverted = key.output & Diverted, labelled = key.output & Labelled;
+    if (diverted)
+        snippet.fragment = "layout(location = 1) out uint osgLabels_outIdentifier;\n"
+                           "layout(location = 2) out vec2 osgLabels_outPlace;\n"
+                           "layout(location = 3) out vec4 osgLabels_outFootprint;\n";
+    if (!labelled)
+    {
+        if (diverted)
+            snippet.statements = "    osgLabels_outIdentifier = 0u;\n"
+                                 "    osgLabels_outPlace = vec2(-1.0);\n"
+                                 "    osgLabels_outFootprint = vec4(0.0);\n";
+        return snippet;
+    }
+    const bool uniformIndex = key.output & OwnProgram;
+    if (uniformIndex)
+        snippet.fragment += "uniform uint osgLabels_index;\n";
+    else
+    {
+        snippet.vertex = "in uint osgLabels_object;\nflat out uint osgLabels_index;\n";
+        snippet.vertexStatements =
+            "    osgLabels_index = osgLabels_object + uint(gl_InstanceID);\n";
+        snippet.attributes.push_back({"osgLabels_object", indexAttribute});
+        snippet.fragment += "flat in uint osgLabels_index;\n";
+    }
+    snippet.fragment += LabelSources::locate("int(osgLabels_index)", key.output & Paged);
+    if (!diverted)
+        snippet.fragment += LabelSources::ink();
+    snippet.statements = "    osgLabels_Text osgLabels_text;\n"
+                         "    vec2 osgLabels_place;\n"
+                         "    mat2 osgLabels_footprint;\n"
+                         "    uint osgLabels_identifier = osgLabels_locate(osgLabels_text, "
+                         "osgLabels_place, osgLabels_footprint);\n";
+    snippet.statements += diverted
+                              ? "    osgLabels_outIdentifier = osgLabels_identifier;\n"
+                                "    osgLabels_outPlace = osgLabels_place;\n"
+                                "    osgLabels_outFootprint = vec4(osgLabels_footprint[0], "
+                                "osgLabels_footprint[1]);\n"
+                              : "    if (osgLabels_place.x >= 0.0)\n"
+                                "        osgmr_out0 = osgLabels_over(osgmr_out0, osgLabels_text, "
+                                "osgLabels_place, osgLabels_footprint, "
+                                "osgLabels_styleOf(osgLabels_identifier));\n";
+    return snippet;
+}
+
+const osg::StateSet* LabelPass::startRun()
+{
+    _applied.clear();
+    return _under.get();
+}
+
+LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
+{
+    const osg::Matrixd modelview =
+        leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd();
+    const osg::Matrixd projection =
+        leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd();
+    // Clip coordinates x, y and w, or z where rays are parallel, of eye coordinates.
+    const int columns[3] = {0, 1, _isParallel ? 2 : 3};
+    osg::Matrixd clip;
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 4; ++i)
+            clip(i, j) = projection(i, columns[j]);
+    const osg::Matrixd toLocal = osg::Matrixd::inverse(modelview);
+    const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
+    osg::Vec3d rows[9];
+    for (int i = 0; i < 3; ++i)
+        rows[i] = rotated(osg::Vec3d(toEye(i, 0), toEye(i, 1), toEye(i, 2)), toLocal);
+    rows[3] = rotated(toEye.getTrans(), toLocal);
+    rows[4] = toLocal.getTrans();
+    rows[5] = rotated({1.0, 0.0, 0.0}, toLocal);
+    rows[6] = rotated({0.0, 1.0, 0.0}, toLocal);
+    rows[7] = rotated({0.0, 0.0, 1.0}, toLocal);
+    rows[8] = rotated(_up, toLocal);
+    Frame frame{};
+    for (int i = 0; i < 9; ++i)
+        for (int j = 0; j < 3; ++j)
+            frame[3 * i + j] = std::isfinite(rows[i][j]) ? float(rows[i][j]) : 0.0f;
+    return frame;
+}
+
+void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
+                      const osgUtil::RenderLeaf& leaf, std::uint32_t number)
+{
+    const std::uint32_t bits = variant.getKey().output;
+    if (!(bits & Labelled))
+        return;
+    // osg::Program trims "[0]" off the names of arrays.
+    static const unsigned int frameName = osg::Uniform::getNameID("osgLabels_frame");
+    static const unsigned int indexName = osg::Uniform::getNameID("osgLabels_index");
+    osg::State& state = *renderInfo.getState();
+    const auto& program = *state.getLastAppliedProgramObject();
+    const auto* gl = state.get<osg::GLExtensions>();
+    if (bits & OwnProgram)
+        gl->glUniform1ui(program.getUniformLocation(indexName), number);
+    else
+        Extensions::instance().vertexAttribI1ui(indexAttribute, number);
+    Applied& applied = _applied[&variant];
+    if (applied.isSet && applied.modelview == leaf._modelview.get() &&
+        applied.projection == leaf._projection.get())
+        return;
+    applied = {leaf._modelview.get(), leaf._projection.get(), true};
+    gl->glUniform3fv(program.getUniformLocation(frameName), 9, frameOf(leaf).data());
+}
+
+bool LabelPass::diverts(const SurfaceItem& item) const
+{
+    return item.variant->getKey().output & Diverted;
+}
+
+void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw)
+{
+    osg::State& state = *renderInfo.getState();
+    if (!_targets)
+        _targets = _resources.targets.acquire(
+            _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
+    {
+        osgMultiRender::FramebufferVisit visit(state);
+        osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+        base->setAttribute(
+            new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), Over);
+        base->setAttribute(new osg::ColorMask, Over);
+        base->setMode(GL_BLEND, Never);
+        state.pushStateSet(base);
+        _targets->bind(state);
+        if (_passes == 0)
+            clear(state);
+        draw();
+        state.popStateSet();
+    }
+    composite(renderInfo);
+    ++_passes;
+}
+
+void LabelPass::clear(osg::State& state) const
+{
+    osg::ref_ptr<osg::StateSet> writes = new osg::StateSet;
+    writes->setAttributeAndModes(new osg::Depth, Over);
+    state.pushStateSet(writes);
+    state.apply();
+    const auto& gl = Extensions::instance();
+    const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
+    gl.clearBufferuiv(GL_COLOR, 1, nothing);
+    const GLfloat far = 1.0f;
+    gl.clearBufferfv(GL_DEPTH, 0, &far);
+    state.popStateSet();
+}
+
+void LabelPass::composite(osg::RenderInfo& renderInfo)
+{
+    osg::State& state = *renderInfo.getState();
+    const int samples = _target.samples;
+    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
+        *_resources.programs.getComposite(_languageVersion, samples, _isPaged, _target.hasDepth));
+    pass->merge(*_targets->getStateSet());
+    pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
+                                      _target.flipped ? _targets->getLayout().height : 0));
+    pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
+                       Over);
+    osg::ref_ptr<osg::Uniform> sample = new osg::Uniform("osgLabels_sample", 0);
+    if (samples > 1)
+        pass->addUniform(sample);
+    state.pushStateSet(_under);
+    state.pushStateSet(pass);
+    const auto* gl = state.get<osg::GLExtensions>();
+    constexpr GLenum sampleMask = 0x8E51;
+    for (int i = 0; i < samples; ++i)
+    {
+        sample->set(i);
+        state.apply();
+        if (samples > 1)
+        {
+            glEnable(sampleMask);
+            gl->glSampleMaski(0, 1u << i);
+        }
+        _resources.screen->draw(renderInfo);
+    }
+    if (samples > 1)
+    {
+        gl->glSampleMaski(0, ~0u);
+        glDisable(sampleMask);
+    }
+    state.popStateSet();
+    state.popStateSet();
+}
+
+void LabelPass::drawn(osg::RenderInfo&) {}
+
+void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
+{
+    using Decision = osgMultiRender::PlanEntry::Decision;
+    if (!_reason.empty())
+    {
+        plan.entries.push_back({"labels", Decision::Dropped, _reason});
+        return;
+    }
+    plan.entries.push_back({"labels", Decision::Drawn,
+                            std::to_string(_labelled) + " drawables, " + std::to_string(_direct) +
+                                " of them blended or sorted, labelled as they are drawn"});
+    plan.counts["labels.drawables"] = _labelled;
+    plan.counts["labels.direct"] = _direct;
+}
+
+} // namespace osgLabels

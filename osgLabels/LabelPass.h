@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/LabelResources.h>
+#include <osgLabels/LabelSettings.h>
+#include <osgLabels/LabelTargets.h>
+
+#include <osgMultiRender/SurfaceFrame.h>
+
+#include <osg/Matrixd>
+
+#include <array>
+#include <unordered_map>
+
+namespace osgLabels
+{
+
+class LabelScene;
+
+/// Bits of SurfaceKey::output.
+enum OutputBits : std::uint32_t
+{
+    Diverted = 1,   ///< Writes the targets of the first pass.
+    Labelled = 2,   ///< Has an object record.
+    OwnProgram = 4, ///< The record's index is a uniform, not an attribute.
+    Paged = 8       ///< Buffers are 2D arrays.
+};
+
+/// Writes places on labels beside the colours, then the glyphs, for one view of one frame.
+class LabelPass : public osgMultiRender::SurfacePass
+{
+public:
+    explicit LabelPass(const LabelScene& scene);
+    ~LabelPass() override;
+
+    osgMultiRender::SurfaceRole getRole() const override
+    {
+        return osgMultiRender::SurfaceRole::Output;
+    }
+    void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
+    void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+                  bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
+    void end(osg::RenderInfo& renderInfo) override;
+    bool diverts(const osgMultiRender::SurfaceItem& item) const override;
+    void divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw) override;
+    void drawn(osg::RenderInfo& renderInfo) override;
+    osgMultiRender::SurfaceSnippet
+    makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
+    const osg::StateSet* startRun() override;
+    void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
+               const osgUtil::RenderLeaf& leaf, std::uint32_t number) override;
+    void fillPlan(osgMultiRender::Plan& plan) const override;
+
+private:
+    /// osgLabels_frame of target.frag.
+    using Frame = std::array<float, 27>;
+    struct Applied
+    {
+        const osg::RefMatrix* modelview = nullptr;
+        const osg::RefMatrix* projection = nullptr;
+        bool isSet = false;
+    };
+
+    Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
+    void clear(osg::State& state) const;
+    void composite(osg::RenderInfo& renderInfo);
+    void makeUnder(osg::State& state);
+
+    LabelResources& _resources;
+    const LabelSettings _settings;
+    std::string _reason; ///< Why there are no labels in this view; empty where there are.
+    unsigned int _contextID = 0;
+    float _languageVersion = 3.3f;
+    bool _isPaged = false;
+    bool _isParallel = false; ///< An orthographic view.
+    GLint _viewport[4] = {};
+    osgMultiRender::DrawTarget _target;
+    osg::Vec3d _up; ///< Of the world, in eye coordinates.
+    unsigned int _labelled = 0, _direct = 0, _passes = 0;
+    osg::ref_ptr<LabelTargets> _targets;
+    osg::ref_ptr<osg::StateSet> _under;
+    std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;
+};
+
+} // namespace osgLabels

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/LabelPrograms.h>
+
+#include <osgLabels/LabelTargets.h>
+#include <osgLabels/Placement.h>
+#include <osgLabels/Shaders.h>
+
+#include <osgMultiRender/SurfaceSource.h>
+
+#include <osg/Depth>
+#include <osgDB/ReadFile>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+/// Text of a shader file: found on OSG_FILE_PATH, else the built-in one.
+std::string textOf(osg::Shader::Type type, const std::string& file, const char* builtIn)
+{
+    osg::ref_ptr<osg::Shader> shader =
+        osgDB::readRefShaderFileWithFallback(type, "osgLabels/" + file, builtIn);
+    return shader ? shader->getShaderSource() : std::string(builtIn);
+}
+
+std::string fragmentText(const std::string& file, const char* builtIn)
+{
+    return textOf(osg::Shader::FRAGMENT, file, builtIn);
+}
+
+std::string tableText(bool isPaged)
+{
+    return (isPaged ? "#define OSGLABELS_PAGED\n" : "") +
+           fragmentText("labelTable.glsl", shaders::labelTable_glsl) +
+           fragmentText("coverage.glsl", shaders::coverage_glsl);
+}
+
+} // namespace
+
+std::string LabelSources::locate(const std::string& index, bool isPaged)
+{
+    return "#define OSGLABELS_OBJECT " + index + "\n" + tableText(isPaged) + placementSource() +
+           fragmentText("target.frag", shaders::target_frag);
+}
+
+std::string LabelSources::ink()
+{
+    return fragmentText("ink.glsl", shaders::ink_glsl);
+}
+
+const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples, bool isPaged,
+                                                 bool hasDepth)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    osg::ref_ptr<osg::StateSet>& stateSet =
+        _composites[{int(languageVersion * 100.0f), samples, isPaged, hasDepth}];
+    if (stateSet)
+        return stateSet.get();
+    constexpr auto on = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+    constexpr auto off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+    const std::string version = osgMultiRender::glslVersionLine(languageVersion);
+    osg::ref_ptr<osg::Program> program = new osg::Program;
+    program->setName("osgLabels second pass");
+    program->addShader(
+        new osg::Shader(osg::Shader::VERTEX, version + textOf(osg::Shader::VERTEX, "screen.vert",
+                                                              shaders::screen_vert)));
+    program->addShader(new osg::Shader(
+        osg::Shader::FRAGMENT, version + "#define OSGLABELS_SAMPLES " + std::to_string(samples) +
+                                   "\n" + tableText(isPaged) + LabelSources::ink() +
+                                   fragmentText("composite.frag", shaders::composite_frag)));
+    program->setThreadSafeRefUnref(true);
+    stateSet = new osg::StateSet;
+    stateSet->setThreadSafeRefUnref(true);
+    stateSet->setAttributeAndModes(program, on);
+    // The result lies at the surfaces' own depths, among those of siblings.
+    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, true),
+                                   hasDepth ? on : off);
+    for (GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
+                        GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
+        stateSet->setMode(mode, off);
+    const std::pair<const char*, int> samplers[] = {
+        {"osgLabels_color", LabelTargets::ColorUnit},
+        {"osgLabels_depths", LabelTargets::DepthUnit},
+        {"osgLabels_identifiers", LabelTargets::IdentifierUnit},
+        {"osgLabels_places", LabelTargets::PlaceUnit},
+        {"osgLabels_footprints", LabelTargets::FootprintUnit}};
+    for (const auto& [name, unit] : samplers)
+        stateSet->addUniform(new osg::Uniform(name, unit));
+    return stateSet.get();
+}
+
+void LabelPrograms::releaseGLObjects(osg::State* state)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& [key, stateSet] : _composites)
+        stateSet->releaseGLObjects(state);
+}
+
+} // namespace osgLabels

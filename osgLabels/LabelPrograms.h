@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Program>
+#include <osg/StateSet>
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+namespace osgLabels
+{
+
+/// GLSL of the label kit, by what it depends on.
+struct LabelSources
+{
+    /// Declares osgLabels_locate(): identifier and place of the fragment.
+    /// `index` is GLSL for the index of its object record.
+    static std::string locate(const std::string& index, bool isPaged);
+    /// Declares osgLabels_over(): the colour of a surface with its label.
+    static std::string ink();
+};
+
+/// The programs of the second pass. Thread safe.
+class LabelPrograms
+{
+public:
+    /// Program and state of the pass, with OVERRIDE, for targets of so many samples.
+    /// `hasDepth`: the view has a depth buffer to test with.
+    const osg::StateSet* getComposite(float languageVersion, int samples, bool isPaged,
+                                      bool hasDepth);
+
+    void releaseGLObjects(osg::State* state);
+
+private:
+    using Key = std::tuple<int, int, bool, bool>;
+    std::mutex _mutex;
+    std::map<Key, osg::ref_ptr<osg::StateSet>> _composites;
+};
+
+} // namespace osgLabels

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/Export.h>
+#include <osgLabels/LabelSettings.h>
+
+#include <osgMultiRender/SurfaceGroup.h>
+
+#include <cstdint>
+#include <memory>
+
+namespace osgLabels
+{
+
+struct LabelResources;
+
+/// A scene with text on the surfaces of its objects.
+///
+/// Each named object carries its name: one draw writes colour, identifier and place on the label, a
+/// pass over the screen then puts glyphs there, so that the cost hardly depends on the number of
+/// labels. Nothing of the model is changed. Opaque surfaces in bins sorted by state go that way;
+/// blended and depth-sorted ones get their label while they are drawn. Where nothing labelled is in
+/// view leaves are drawn as without the group. Prado, Raposo, Real-Time Label Visualization in
+/// Massive CAD Models, 2013. Requires GL 3.3 compatibility.
+class OSGLABELS_EXPORT LabelScene : public osgMultiRender::SurfaceGroup
+{
+public:
+    LabelScene();
+    LabelScene(const LabelScene& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+    META_Node(osgLabels, LabelScene)
+
+    /// Changes the text of an object while the scene is shown, from any thread; the next frame
+    /// shows it. UTF-8; an empty text is none. False for an identifier that no object has.
+    bool setText(std::uint32_t identifier, const std::string& text);
+
+    void setSettings(const LabelSettings& settings);
+    const LabelSettings& getSettings() const { return _settings; }
+
+    void traverse(osg::NodeVisitor& visitor) override;
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+    /// What views share; for the passes.
+    LabelResources& getResources() const { return *_resources; }
+
+protected:
+    ~LabelScene() override;
+
+    std::unique_ptr<osgMultiRender::SurfacePass> createPass() const override;
+
+private:
+    LabelSettings _settings;
+    std::unique_ptr<LabelResources> _resources;
+};
+
+} // namespace osgLabels

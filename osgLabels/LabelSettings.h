@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Vec3>
+#include <osg/Vec4>
+
+#include <string>
+#include <vector>
+
+namespace osgLabels
+{
+
+/// Which way text stands on a surface that has no way up on the screen of its own.
+enum class LabelUp
+{
+    Z,
+    Y,
+    X,
+    Screen ///< Up is where it is on the screen.
+};
+
+/// How the text of a group of labels looks.
+struct LabelStyle
+{
+    static constexpr unsigned int MaxStyles = 16;
+
+    osg::Vec4 ink{0.0f, 0.0f, 0.0f, 0.0f}; ///< Alpha 0: black or white, whichever shows.
+    /// Alpha < 0: a black or white plate where the ink would have less contrast than 4.5 to 1 to
+    /// the surface; 0: none.
+    osg::Vec4 plate{0.0f, 0.0f, 0.0f, -1.0f};
+    osg::Vec3 outline{0.0f, 0.0f, 0.0f};
+    float outlineWidth = 0.0f; ///< em; 0: none.
+};
+
+/// All knobs of a LabelScene; see its setters.
+struct LabelSettings
+{
+    std::string source = "name";
+    std::string match;
+    std::string font;
+    bool proportional = false;
+    float height = 0.5f;
+    float gap = 2.0f;
+    float readable = 4.0f;
+    LabelUp up = LabelUp::Z;
+    int texCoord = -1;
+    bool chunk = false;
+    bool keys = true;
+    std::vector<LabelStyle> styles{1};
+};
+
+} // namespace osgLabels

@@ -1,0 +1,5 @@
+// One triangle over the viewport.
+void main()
+{
+    gl_Position = gl_Vertex;
+}
