@@ -123,7 +123,7 @@ void LabelPass::makeUnder(osg::State& state)
                                                          2.0f / float(std::max(1, _viewport[2])),
                                                          2.0f / float(std::max(1, _viewport[3])))));
     add(new osg::Uniform("osgLabels_depth", _isParallel ? osg::Vec2(-1.0f, 2.0f) : osg::Vec2()));
-    add(new osg::Uniform("osgLabels_layoutOfText", osg::Vec2(_settings.height, _settings.gap)));
+    add(new osg::Uniform("osgLabels_layoutOfText", osg::Vec2(_settings.size, _settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
                                                         3 * int(LabelStyle::MaxStyles));
     for (unsigned int i = 0; i < LabelStyle::MaxStyles; ++i)

@@ -23,6 +23,7 @@ enum class LabelUp
 struct LabelStyle
 {
     static constexpr unsigned int MaxStyles = 16;
+    static constexpr float MaxOutline = 0.125f; ///< em
 
     osg::Vec4 ink{0.0f, 0.0f, 0.0f, 0.0f}; ///< Alpha 0: black or white, whichever shows.
     /// Alpha < 0: a black or white plate where the ink would have less contrast than 4.5 to 1 to
@@ -39,7 +40,7 @@ struct LabelSettings
     std::string match;
     std::string font;
     bool proportional = false;
-    float height = 0.5f;
+    float size = 0.5f;
     float gap = 2.0f;
     float readable = 4.0f;
     LabelUp up = LabelUp::Z;

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/LabelOptions.h>
+
+#include <osgMultiRender/PseudoLoader.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <regex>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+/// The whole text as a number, in any locale.
+template <class Number> bool parseNumber(const std::string& text, Number& number)
+{
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    return error == std::errc() && stop == end;
+}
+
+/// The shortest text that parses to the same number.
+template <class Number> std::string toText(Number number)
+{
+    char buffer[32];
+    return std::string(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
+}
+
+template <class Number>
+LabelOption number(const char* name, Number LabelSettings::*member, Number low, Number high,
+                   const char* help)
+{
+    const std::string range = toText(low) + ".." + toText(high);
+    return {name, "<" + range + ">", help,
+            [=](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                Number value;
+                if (!parseNumber(text, value) || !(value >= low && value <= high))
+                    return "'" + text + "' is no number of " + range;
+                settings.*member = value;
+                return {};
+            },
+            [=](const LabelSettings& settings) { return toText(settings.*member); }};
+}
+
+template <class Value> struct Word
+{
+    const char* name;
+    Value value;
+};
+
+template <class Value>
+LabelOption choice(const char* name, Value LabelSettings::*member,
+                   const std::vector<Word<Value>>& words, const char* help)
+{
+    std::string values;
+    for (const Word<Value>& word : words)
+        values += (values.empty() ? "" : "|") + std::string(word.name);
+    return {name, values, help,
+            [=](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                for (const Word<Value>& word : words)
+                    if (text == word.name)
+                    {
+                        settings.*member = word.value;
+                        return {};
+                    }
+                return "'" + text + "' is none of " + values;
+            },
+            [=](const LabelSettings& settings) -> std::string
+            {
+                for (const Word<Value>& word : words)
+                    if (settings.*member == word.value)
+                        return word.name;
+                return {};
+            }};
+}
+
+LabelOption flag(const char* name, bool LabelSettings::*member, const char* help)
+{
+    return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
+}
+
+/// "#rrggbb" or "#rrggbbaa".
+bool parseColor(const std::string& text, osg::Vec4& color)
+{
+    if ((text.size() != 7 && text.size() != 9) || text[0] != '#')
+        return false;
+    color = osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f);
+    for (std::size_t i = 1; i < text.size(); i += 2)
+    {
+        unsigned int value = 0;
+        const char* end = text.data() + i + 2;
+        if (std::from_chars(text.data() + i, end, value, 16).ptr != end)
+            return false;
+        color[int(i / 2)] = float(value) / 255.0f;
+    }
+    return true;
+}
+
+std::string toText(const osg::Vec4& color)
+{
+    static const char digits[] = "0123456789abcdef";
+    std::string text = "#";
+    for (int i = 0; i < (color.a() < 1.0f ? 4 : 3); ++i)
+    {
+        const int value = int(std::lround(std::clamp(color[i], 0.0f, 1.0f) * 255.0f));
+        text += {digits[value / 16], digits[value % 16]};
+    }
+    return text;
+}
+
+LabelOption inkOption()
+{
+    return {"ink", "auto|<#rrggbb[aa]>", "Colour of letters; auto: black or white, whichever shows",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                osg::Vec4 color;
+                if (text != "auto" && (!parseColor(text, color) || color.a() == 0.0f))
+                    return "'" + text + "' is neither auto nor a visible colour #rrggbb";
+                settings.styles[0].ink = color;
+                return {};
+            },
+            [](const LabelSettings& settings)
+            {
+                const osg::Vec4& ink = settings.styles[0].ink;
+                return ink.a() == 0.0f ? std::string("auto") : toText(ink);
+            }};
+}
+
+LabelOption plateOption()
+{
+    return {"plate", "auto|off|<#rrggbb[aa]>",
+            "Plate behind the letters; auto: where an ink has less contrast than 4.5 to 1",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                osg::Vec4 color;
+                if (text == "auto")
+                    color.a() = -1.0f;
+                else if (text != "off" && !parseColor(text, color))
+                    return "'" + text + "' is neither auto, off nor a colour #rrggbb";
+                settings.styles[0].plate = color;
+                return {};
+            },
+            [](const LabelSettings& settings)
+            {
+                const osg::Vec4& plate = settings.styles[0].plate;
+                return plate.a() < 0.0f    ? std::string("auto")
+                       : plate.a() == 0.0f ? std::string("off")
+                                           : toText(plate);
+            }};
+}
+
+LabelOption outlineOption()
+{
+    return {"outline", "off|<#rrggbb:em>",
+            "Outline of letters, such as #ffffff:0.05 in shares of the line's height",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                LabelStyle& style = settings.styles[0];
+                const std::size_t colon = text.find(':');
+                osg::Vec4 color;
+                float width = 0.0f;
+                if (text != "off" &&
+                    (colon == std::string::npos || !parseColor(text.substr(0, colon), color) ||
+                     !parseNumber(text.substr(colon + 1), width) ||
+                     !(width > 0.0f && width <= LabelStyle::MaxOutline)))
+                    return "'" + text + "' is neither off nor a colour and a width, 0 to " +
+                           toText(LabelStyle::MaxOutline) + ": #ffffff:0.05";
+                style.outline = osg::Vec3(color.r(), color.g(), color.b());
+                style.outlineWidth = width;
+                return {};
+            },
+            [](const LabelSettings& settings)
+            {
+                const LabelStyle& style = settings.styles[0];
+                return style.outlineWidth == 0.0f ? std::string("off")
+                                                  : toText(osg::Vec4(style.outline, 1.0f)) + ":" +
+                                                        toText(style.outlineWidth);
+            }};
+}
+
+LabelOption matchOption()
+{
+    return {"match", "<regular expression>",
+            "Only objects whose name it matches somewhere have a label (ECMAScript)",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                try
+                {
+                    const std::regex check(text);
+                }
+                catch (const std::regex_error& error)
+                {
+                    return "'" + text + "' is no regular expression: " + error.what();
+                }
+                settings.match = text;
+                return {};
+            },
+            [](const LabelSettings& settings) { return settings.match; }};
+}
+
+LabelOption text(const char* name, std::string LabelSettings::*member, const char* values,
+                 const char* help)
+{
+    return {name, values, help,
+            [=](LabelSettings& settings, const std::string& value) -> std::string
+            {
+                settings.*member = value;
+                return {};
+            },
+            [=](const LabelSettings& settings) { return settings.*member; }};
+}
+
+} // namespace
+
+const std::vector<LabelOption>& labelOptions()
+{
+    static const std::vector<LabelOption> options = {
+        text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv|file.json>",
+             "What is written on an object: its nearest name, its description, a user value, or "
+             "what a table has for its name"),
+        matchOption(),
+        text("font", &LabelSettings::font, "<file>", "Font that FreeType opens"),
+        flag("proportional", &LabelSettings::proportional,
+             "Letters take their own width instead of equal cells"),
+        number("size", &LabelSettings::size, 0.05f, 0.9f,
+               "Height of text as a share of the room across its line"),
+        number("gap", &LabelSettings::gap, 0.0f, 1000.0f,
+               "Least gap between repetitions along an object, in heights of the text"),
+        number("readable", &LabelSettings::readable, 0.0f, 100.0f,
+               "Pixels of height below which text fades out"),
+        choice<LabelUp>(
+            "up", &LabelSettings::up,
+            {{"z", LabelUp::Z}, {"y", LabelUp::Y}, {"x", LabelUp::X}, {"screen", LabelUp::Screen}},
+            "The world's way up, which text on walls keeps to"),
+        number("texcoord", &LabelSettings::texCoord, -1, 3,
+               "Texture unit whose coordinates place the text; -1: by shape"),
+        flag("chunk", &LabelSettings::chunk, "Gathers many small drawables into few large ones"),
+        inkOption(),
+        plateOption(),
+        outlineOption(),
+        flag("keys", &LabelSettings::keys, "Answers to keys in osgviewer"),
+    };
+    return options;
+}
+
+bool setLabelOption(LabelSettings& settings, const std::string& name, const std::string& value,
+                    std::string& error)
+{
+    std::string known;
+    for (const LabelOption& option : labelOptions())
+    {
+        if (option.name == name)
+        {
+            const std::string cause = option.parse(settings, value);
+            error = cause.empty() ? "" : "setting '" + name + "': " + cause;
+            return cause.empty();
+        }
+        known += (known.empty() ? "" : ", ") + option.name;
+    }
+    error = "unknown setting '" + name + "'; known are " + known;
+    return false;
+}
+
+std::string formatLabelOptions(const LabelSettings& settings)
+{
+    const LabelSettings defaults;
+    std::string all;
+    for (const LabelOption& option : labelOptions())
+    {
+        const std::string value = option.format(settings);
+        if (value == option.format(defaults))
+            continue;
+        const char quote = value.find('\'') == std::string::npos ? '\'' : '"';
+        all += (all.empty() ? "" : ",") + option.name + "=" + quote + value + quote;
+    }
+    return all;
+}
+
+bool parseLabelOptions(LabelSettings& settings, const std::string& all, std::string& error)
+{
+    osgMultiRender::Settings parsed;
+    LabelSettings changed = settings;
+    if (!osgMultiRender::parseSettings(all, parsed, error))
+        return false;
+    for (const auto& [name, value] : parsed)
+        if (!setLabelOption(changed, name, value, error))
+            return false;
+    settings = changed;
+    return true;
+}
+
+} // namespace osgLabels
