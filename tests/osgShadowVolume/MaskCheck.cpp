@@ -111,6 +111,7 @@ MaskCheck::MaskCheck(int width, int height)
     _kit->setLightTolerance(0.0);
     _kit->setShow(osgShadowVolume::Show::MASK);
     _kit->setKeys(false);
+    _kit->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::ON);
 }
 
 void MaskCheck::setUp(osg::Node& scene, int light, const Way& way)
