@@ -28,9 +28,18 @@ public:
 
     template <class Project> void search(const EyeTriangle& triangle, const Project& project)
     {
-        if (isNear(triangle, project))
-            for (int k = 0; k < 3; ++k)
-                searchEdge(triangle.corner[k], triangle.corner[(k + 1) % 3], project);
+        for (int k = 0; k < 3; ++k)
+            searchEdge(triangle.corner[k], triangle.corner[(k + 1) % 3], project);
+    }
+
+    /// Whether the triangle, as it is seen, may come so near.
+    bool isOnScreen(const EyeTriangle& triangle) const
+    {
+        for (int k = 0; k < 2; ++k)
+            if (triangle.screenLow[k] - _pixel[k] > _center[k] ||
+                triangle.screenHigh[k] + _pixel[k] < _center[k])
+                return false;
+        return true;
     }
 
 private:
@@ -39,27 +48,6 @@ private:
     {
         return std::max(std::abs(p.x() - _center.x()) / _pixel.x(),
                         std::abs(p.y() - _center.y()) / _pixel.y());
-    }
-
-    /// Most triangles are far away on the screen.
-    template <class Project> bool isNear(const EyeTriangle& triangle, const Project& project) const
-    {
-        osg::Vec2d low(Infinity, Infinity), high(-Infinity, -Infinity);
-        for (const osg::Vec3d& corner : triangle.corner)
-        {
-            const osg::Vec2d p = project(corner);
-            if (p == nowhere())
-                return true;
-            for (int k = 0; k < 2; ++k)
-            {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-        for (int k = 0; k < 2; ++k)
-            if (low[k] - _pixel[k] > _center[k] || high[k] + _pixel[k] < _center[k])
-                return false;
-        return true;
     }
 
     template <class Project>
@@ -133,6 +121,46 @@ bool meetsSide(const osg::Vec3d& a, const osg::Vec3d& b, const EyeLight& light, 
     return share >= -1e-3 && share <= 1.001 && isBehind;
 }
 
+/// Where the shadow of a triangle may touch what a pixel shows of a plane: near the line from the
+/// middle of that to the light, since what lies between a point beside the middle and the light is
+/// no farther from the line than the point.
+class ShadowReach
+{
+public:
+    /// `corners` are rays at the corners of the pixel.
+    ShadowReach(const osg::Vec3d& point, const osg::Vec3d& normal, const osg::Vec3d& toLight,
+                const std::vector<EyeRay>& corners)
+        : _point(point), _toLight(toLight / toLight.length())
+    {
+        for (const EyeRay& ray : corners)
+        {
+            const double along = ((point - ray.origin) * normal) / (ray.direction * normal);
+            const double distance = (ray.origin + ray.direction * along - point).length();
+            // A ray that misses the plane says that the pixel shows it to infinity.
+            _size = along > 0.0 && distance < Infinity ? std::max(_size, distance) : Infinity;
+        }
+    }
+
+    bool mayTouch(const EyeTriangle& triangle) const
+    {
+        const double distance = ((triangle.middle - _point) ^ _toLight).length();
+        return !(distance > (triangle.radius + _size) * (1.0 + 1e-9));
+    }
+
+private:
+    osg::Vec3d _point, _toLight;
+    double _size = 0.0;
+};
+
+/// Whether the ray passes so far beside both ends of an edge, seen from the light, that it misses
+/// the side there. The moments of the ray about the lines from the light through the ends: along
+/// the edge they are linear, and where they vanish the ray meets the side.
+bool passesSide(double momentA, double momentB)
+{
+    return (momentA > 0.0) == (momentB > 0.0) &&
+           std::min(std::abs(momentA), std::abs(momentB)) > 2e-3 * std::abs(momentA - momentB);
+}
+
 } // namespace
 
 std::vector<osg::Vec2d> ShadowTruth::findEdgePoints(const Light& light, double x, double y,
@@ -154,11 +182,18 @@ std::vector<osg::Vec2d> ShadowTruth::findEdgePoints(const Light& light, double x
     };
     EdgeSearch edges({x, y}, pixel);
     for (const EyeTriangle& triangle : s.triangles)
-    {
-        edges.search(triangle, onScreen);
-        if (first.triangle >= 0)
+        if (edges.isOnScreen(triangle))
+            edges.search(triangle, onScreen);
+    if (first.triangle < 0)
+        return edges.points;
+    std::vector<EyeRay> corners;
+    for (int i = 0; i < 4; ++i)
+        corners.push_back(
+            s.rayAt(x + (i & 1 ? pixel.x() : -pixel.x()), y + (i & 2 ? pixel.y() : -pixel.y())));
+    const ShadowReach reach(first.point, first.normal, eye.from(first.point), corners);
+    for (const EyeTriangle& triangle : s.triangles)
+        if (reach.mayTouch(triangle))
             edges.search(triangle, inShadow);
-    }
     return edges.points;
 }
 
@@ -252,9 +287,13 @@ bool ShadowTruth::isWithinSnapping(const Light& light, double x, double y,
         {
             if (!s.areSame(i, first.triangle) && meets(triangle, ray.origin, ray.unit))
                 cap.add(s.depthOf(s.hitAt(i, ray).point));
+            double moments[3];
+            for (int k = 0; k < 3; ++k)
+                moments[k] = ray.unit * ((triangle.corner[k] - ray.origin) ^ eye.from(ray.origin));
             osg::Vec3d point;
             for (int k = 0; k < 3; ++k)
-                if (meetsSide(triangle.corner[k], triangle.corner[(k + 1) % 3], eye, ray, point))
+                if (!passesSide(moments[k], moments[(k + 1) % 3]) &&
+                    meetsSide(triangle.corner[k], triangle.corner[(k + 1) % 3], eye, ray, point))
                     sides[k].add(s.depthOf(point));
         }
         if (cap.mayBeAt(surface, count) ||

@@ -13,6 +13,8 @@ namespace truth
 namespace
 {
 
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+
 /// What Embree is asked with: `visit` is called for each triangle that the ray may meet, until it
 /// returns true.
 struct Query : RTCIntersectContext
@@ -49,16 +51,26 @@ double largest(const osg::Vec3d& v)
     return std::max({std::abs(v.x()), std::abs(v.y()), std::abs(v.z())});
 }
 
-EyeTriangle::EyeTriangle(const osg::Vec3d (&corners)[3])
+EyeTriangle::EyeTriangle(const osg::Vec3d (&corners)[3], const osg::Matrixd& projection)
+    : screenLow(Infinity, Infinity), screenHigh(-Infinity, -Infinity)
 {
     std::copy_n(corners, 3, corner);
     normal = (corner[1] - corner[0]) ^ (corner[2] - corner[0]);
     normalLength = normal.length();
+    middle = (corner[0] + corner[1] + corner[2]) / 3.0;
+    radius = 0.0;
     for (int k = 0; k < 3; ++k)
     {
         const osg::Vec3d& next = corner[(k + 1) % 3];
         edgeLength[k] = (next - corner[k]).length();
         largestOfEdge[k] = std::max(largest(corner[k]), largest(next));
+        radius = std::max(radius, (corner[k] - middle).length() + 1e-12 * largestOfEdge[k]);
+        const osg::Vec4d clip = osg::Vec4d(corner[k], 1.0) * projection;
+        for (int i = 0; i < 2; ++i)
+        {
+            screenLow[i] = std::min(screenLow[i], clip.w() > 0.0 ? clip[i] / clip.w() : -Infinity);
+            screenHigh[i] = std::max(screenHigh[i], clip.w() > 0.0 ? clip[i] / clip.w() : Infinity);
+        }
     }
 }
 
@@ -88,7 +100,7 @@ ShadowTruth::State::State(osg::Node& node, const support::CameraSpec& camera)
         osg::Vec3d corners[3];
         for (int k = 0; k < 3; ++k)
             corners[k] = osg::Vec3d(triangle.local[k]) * toEye;
-        triangles.emplace_back(corners);
+        triangles.emplace_back(corners, projection);
     }
     build();
 }

@@ -30,8 +30,12 @@ struct EyeTriangle
     double normalLength;     ///< Its length.
     double edgeLength[3];    ///< From corner k to the next one.
     double largestOfEdge[3]; ///< The largest coordinate of its ends.
+    osg::Vec3d middle;
+    double radius;         ///< Of a sphere around the middle that holds it.
+    osg::Vec2d screenLow;  ///< Of a box on the screen, in normalized device
+    osg::Vec2d screenHigh; ///< coordinates; infinite where a corner is not before the eye.
 
-    explicit EyeTriangle(const osg::Vec3d (&corners)[3]);
+    EyeTriangle(const osg::Vec3d (&corners)[3], const osg::Matrixd& projection);
 };
 
 /// A light in eye coordinates.
