@@ -32,16 +32,6 @@ public:
             searchEdge(triangle.corner[k], triangle.corner[(k + 1) % 3], project);
     }
 
-    /// Whether the triangle, as it is seen, may come so near.
-    bool isOnScreen(const EyeTriangle& triangle) const
-    {
-        for (int k = 0; k < 2; ++k)
-            if (triangle.screenLow[k] - _pixel[k] > _center[k] ||
-                triangle.screenHigh[k] + _pixel[k] < _center[k])
-                return false;
-        return true;
-    }
-
 private:
     /// In pixels, the larger one of both directions.
     double distanceTo(const osg::Vec2d& p) const
@@ -152,14 +142,28 @@ private:
     double _size = 0.0;
 };
 
-/// Whether the ray passes so far beside both ends of an edge, seen from the light, that it misses
-/// the side there. The moments of the ray about the lines from the light through the ends: along
-/// the edge they are linear, and where they vanish the ray meets the side.
-bool passesSide(double momentA, double momentB)
+/// A ray, to be asked about the sides of many volumes.
+struct SnappedRay
 {
-    return (momentA > 0.0) == (momentB > 0.0) &&
-           std::min(std::abs(momentA), std::abs(momentB)) > 2e-3 * std::abs(momentA - momentB);
-}
+    EyeRay ray;
+    osg::Vec3d away; ///< Its moments about lines from the light: (v - origin) * away.
+
+    SnappedRay(const EyeRay& r, const EyeLight& light) : ray(r), away(light.from(r.origin) ^ r.unit)
+    {
+    }
+
+    /// Where it meets the side at edge k.
+    bool meetsSide(const EyeTriangle& t, int k, const EyeLight& light, osg::Vec3d& point) const
+    {
+        const osg::Vec3d &a = t.corner[k], &b = t.corner[(k + 1) % 3];
+        // Along the edge the moments are linear, and vanish where the ray meets the side.
+        const double momentA = (a - ray.origin) * away, momentB = (b - ray.origin) * away;
+        const bool isBeside =
+            (momentA > 0.0) == (momentB > 0.0) &&
+            std::min(std::abs(momentA), std::abs(momentB)) > 2e-3 * std::abs(momentA - momentB);
+        return !isBeside && truth::meetsSide(a, b, light, ray, point);
+    }
+};
 
 } // namespace
 
@@ -182,7 +186,7 @@ std::vector<osg::Vec2d> ShadowTruth::findEdgePoints(const Light& light, double x
     };
     EdgeSearch edges({x, y}, pixel);
     for (const EyeTriangle& triangle : s.triangles)
-        if (edges.isOnScreen(triangle))
+        if (triangle.isOnScreen({x, y}, pixel))
             edges.search(triangle, onScreen);
     if (first.triangle < 0)
         return edges.points;
@@ -233,12 +237,13 @@ bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, S
     if (first.triangle < 0)
         return false;
     const double depth = s.depthOf(first.point);
+    const osg::Vec2d rounding(1e-6, 1e-6); // many times that of double
     const int count = static_cast<int>(s.triangles.size());
     // Another surface in the same quantum may be the one that the depth buffer kept.
     for (int i = 0; i < count; ++i)
     {
-        if (i == first.triangle || s.isCulled(i, ray) ||
-            !meets(s.triangles[i], ray.origin, ray.unit))
+        if (i == first.triangle || !s.triangles[i].isOnScreen({x, y}, rounding) ||
+            s.isCulled(i, ray) || !meets(s.triangles[i], ray.origin, ray.unit))
             continue;
         Sample other = s.hitAt(i, ray);
         if (!(std::abs(s.depthOf(other.point) - depth) <= DepthQuantum) ||
@@ -252,11 +257,7 @@ bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, S
     for (double step : {-DepthQuantum, DepthQuantum})
     {
         const osg::Vec3d point = osg::Vec3d(x, y, depth + step) * s.unproject;
-        osg::Vec3d toLight = eye.from(point);
-        toLight.normalize();
-        bool occluded = false;
-        for (int i = 0; i < count && !occluded; ++i)
-            occluded = !s.areSame(i, first.triangle) && s.casts(i, eye, point, toLight);
+        const bool occluded = s.isOccludedByOthers(eye, point, first.triangle);
         if (occluded == (seen == Seen::SHADOWED))
             return true;
     }
@@ -268,32 +269,29 @@ bool ShadowTruth::isWithinSnapping(const Light& light, double x, double y,
 {
     const State& s = *_state;
     const EyeLight eye = s.toEye(light);
-    std::vector<EyeRay> rays;
+    std::vector<SnappedRay> rays;
     for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i)
-            rays.push_back(s.rayAt(x + pixel.x() * i / 256.0, y + pixel.y() * j / 256.0));
+            rays.emplace_back(s.rayAt(x + pixel.x() * i / 256.0, y + pixel.y() * j / 256.0), eye);
     const int count = static_cast<int>(rays.size());
-    const Sample first = s.firstHit(rays[4]);
+    const Sample first = s.firstHit(rays[4].ray);
     if (first.triangle < 0)
         return false;
     DepthRange surface;
-    for (const EyeRay& ray : rays)
-        surface.add(s.depthOf(s.hitAt(first.triangle, ray).point));
+    for (const SnappedRay& snapped : rays)
+        surface.add(s.depthOf(s.hitAt(first.triangle, snapped.ray).point));
     for (int i = 0; i < static_cast<int>(s.triangles.size()); ++i)
     {
         const EyeTriangle& triangle = s.triangles[i];
+        const bool isOther = triangle.isOnScreen({x, y}, pixel) && !s.areSame(i, first.triangle);
         DepthRange cap, sides[3];
-        for (const EyeRay& ray : rays)
+        for (const SnappedRay& snapped : rays)
         {
-            if (!s.areSame(i, first.triangle) && meets(triangle, ray.origin, ray.unit))
-                cap.add(s.depthOf(s.hitAt(i, ray).point));
-            double moments[3];
-            for (int k = 0; k < 3; ++k)
-                moments[k] = ray.unit * ((triangle.corner[k] - ray.origin) ^ eye.from(ray.origin));
+            if (isOther && meets(triangle, snapped.ray.origin, snapped.ray.unit))
+                cap.add(s.depthOf(s.hitAt(i, snapped.ray).point));
             osg::Vec3d point;
             for (int k = 0; k < 3; ++k)
-                if (!passesSide(moments[k], moments[(k + 1) % 3]) &&
-                    meetsSide(triangle.corner[k], triangle.corner[(k + 1) % 3], eye, ray, point))
+                if (snapped.meetsSide(triangle, k, eye, point))
                     sides[k].add(s.depthOf(point));
         }
         if (cap.mayBeAt(surface, count) ||

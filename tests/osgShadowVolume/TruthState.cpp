@@ -273,15 +273,27 @@ bool ShadowTruth::State::casts(int caster, const EyeLight& light, const osg::Vec
     return meets(e, point, toLight);
 }
 
-bool ShadowTruth::State::isOccluded(const EyeLight& light, const osg::Vec3d& point, int seen) const
+template <class IsLeftOut>
+bool ShadowTruth::State::isOccludedBut(const EyeLight& light, const osg::Vec3d& point,
+                                       const IsLeftOut& isLeftOut) const
 {
     osg::Vec3d toLight = light.from(point);
     const double distance = toLight.normalize();
-    const double length =
-        light.position.w() == 0.0 ? std::numeric_limits<double>::infinity() : distance * 1.00001;
+    const double length = light.position.w() == 0.0 ? Infinity : distance * 1.00001;
     return visit(point, toLight, length,
                  [&](int triangle)
-                 { return triangle != seen && casts(triangle, light, point, toLight); });
+                 { return !isLeftOut(triangle) && casts(triangle, light, point, toLight); });
+}
+
+bool ShadowTruth::State::isOccluded(const EyeLight& light, const osg::Vec3d& point, int seen) const
+{
+    return isOccludedBut(light, point, [&](int triangle) { return triangle == seen; });
+}
+
+bool ShadowTruth::State::isOccludedByOthers(const EyeLight& light, const osg::Vec3d& point,
+                                            int seen) const
+{
+    return isOccludedBut(light, point, [&](int triangle) { return areSame(triangle, seen); });
 }
 
 bool ShadowTruth::State::isOccludedByAny(const EyeLight& light, const osg::Vec3d& point,

@@ -36,6 +36,13 @@ struct EyeTriangle
     osg::Vec2d screenHigh; ///< coordinates; infinite where a corner is not before the eye.
 
     EyeTriangle(const osg::Vec3d (&corners)[3], const osg::Matrixd& projection);
+
+    /// Whether it may be seen in the rectangle around the center that is twice as large as `half`.
+    bool isOnScreen(const osg::Vec2d& center, const osg::Vec2d& half) const
+    {
+        return screenLow.x() - half.x() <= center.x() && screenHigh.x() + half.x() >= center.x() &&
+               screenLow.y() - half.y() <= center.y() && screenHigh.y() + half.y() >= center.y();
+    }
 };
 
 /// A light in eye coordinates.
@@ -89,6 +96,8 @@ struct ShadowTruth::State
     bool casts(int caster, const EyeLight& light, const osg::Vec3d& point,
                const osg::Vec3d& toLight) const;
     bool isOccluded(const EyeLight& light, const osg::Vec3d& point, int seen) const;
+    /// By a triangle that has not the same corners as the one that is seen.
+    bool isOccludedByOthers(const EyeLight& light, const osg::Vec3d& point, int seen) const;
     bool isOccludedByAny(const EyeLight& light, const osg::Vec3d& point, int seen) const;
     /// Whether the two have the same corners.
     bool areSame(int a, int b) const;
@@ -105,6 +114,9 @@ private:
         const std::vector<EyeTriangle>* triangles;
         double slack;
     };
+    template <class IsLeftOut>
+    bool isOccludedBut(const EyeLight& light, const osg::Vec3d& point,
+                       const IsLeftOut& isLeftOut) const;
     using Visit = bool (*)(const void* what, int triangle);
 
     void build();
