@@ -22,6 +22,29 @@ double determinantOf(const osg::Matrixd& m)
            m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
 }
 
+/// The power of two that takes what lies in the box, seen from the light, to behind all that is in
+/// view; the box and the light in the frame that the matrix takes clip coordinates to.
+///
+/// Not more than that: clipping, in single precision, misplaces what is left of a far cap by some
+/// 2^-24 of the cap's size, and so the cap fails to cover the picture up to its rim. The limit, for
+/// a light that may touch its caster, leaves that at a thousandth of the caster's distance.
+int stretchOf(const osg::Vec3d& light, const osg::BoundingBoxd& box, const osg::Matrixd& fromClip)
+{
+    constexpr int Most = 14;
+    osg::Vec3d nearest = light;
+    double farthest = 0.0;
+    for (int k = 0; k < 3; ++k)
+        nearest[k] = std::max(box._min[k], std::min(box._max[k], light[k]));
+    for (unsigned int i = 0; i < 8; ++i)
+        farthest = std::max(farthest, (osg::Vec3d((i & 1u) ? 1.0 : -1.0, (i & 2u) ? 1.0 : -1.0,
+                                                  (i & 4u) ? 1.0 : -1.0) *
+                                           fromClip -
+                                       light)
+                                          .length());
+    const double ratio = farthest / (nearest - light).length();
+    return ratio < std::ldexp(1.0, Most) ? std::max(1, std::ilogb(ratio) + 2) : Most;
+}
+
 void setUniform(const osg::State& state, const char* name, float value)
 {
     const auto& program = *state.getLastAppliedProgramObject();
@@ -51,24 +74,24 @@ void CasterDraw::add(const osg::ref_ptr<CasterMesh>& mesh,
 float CasterDraw::endOf(const Placed& placed) const
 {
     // All rays of an orthographic view meet at one point at infinity, so that a cap there covers
-    // all of the picture or nothing and is not drawn. So there volumes end, 2^24 times as far
-    // from a positional light as their caster.
+    // all of the picture or nothing and is not drawn. So there volumes end behind what is in view.
     const osg::Matrixd& p = *_view.projection;
     const bool isPerspective = p(0, 3) != 0.0 || p(1, 3) != 0.0 || p(2, 3) != 0.0;
     if (isPerspective)
         return 0.0f;
     const glm::vec4& light = placed.light.light;
+    const osg::Matrixd toClip = osg::Matrixd(*placed.modelview) * p;
+    const osg::BoundingBoxd box(placed.mesh->getBoundingBox());
     if (light.w != 0.0f)
-        return std::ldexp(light.w, -24);
+        return std::ldexp(light.w, -stretchOf(osg::Vec3d(light.x, light.y, light.z) / light.w, box,
+                                              osg::Matrixd::inverse(toClip)));
     // Sides that run along the view are not drawn either, and can't close the volume of a
     // directional light. There it ends beyond what is in view.
-    const osg::Matrixd toClip = osg::Matrixd(*placed.modelview) * p;
     const osg::Vec3d way =
         osg::Matrixd::transform3x3(osg::Vec3d(light.x, light.y, light.z), toClip);
     if (std::hypot(way.x(), way.y()) > std::ldexp(std::abs(way.z()), -16))
         return 0.0f;
     double depth = 1.0;
-    const osg::BoundingBoxd box(placed.mesh->getBoundingBox());
     for (unsigned int corner = 0; corner < 8; ++corner)
         depth = std::max(depth, std::abs((box.corner(corner) * toClip).z()));
     const double end = std::abs(way.z()) / (4.0 * depth);

@@ -127,6 +127,15 @@ osg::ref_ptr<osg::Geode> ExtremeMesh::createNode() const
 {
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(new osg::Vec3Array(corners.begin(), corners.end()));
+    osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+    {
+        osg::Vec3d normal =
+            osg::Vec3d(corners[i + 1] - corners[i]) ^ osg::Vec3d(corners[i + 2] - corners[i]);
+        normal.normalize();
+        normals->insert(normals->end(), 3, normal);
+    }
+    geometry->setNormalArray(normals);
     if (!corners.empty())
         geometry->addPrimitiveSet(
             new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(corners.size())));

@@ -62,6 +62,13 @@ public:
                        bool isFailure = true);
 
 private:
+    void setUp(osg::Node& scene, int light, const Way& way);
+    TruthPicture renderTruth(const ShadowTruth& truth, const Light& light) const;
+    /// What the light adds to each pixel of the picture without any shadow, but for its ambient
+    /// part, which shadows leave: the largest channel's share.
+    std::vector<float> renderLight(osg::Node& scene, const support::CameraSpec& camera, int light,
+                                   int width, int height);
+
     int _width, _height;
     support::HeadlessViewer _viewer;
     osg::ref_ptr<osgShadowVolume::ShadowedScene> _kit;

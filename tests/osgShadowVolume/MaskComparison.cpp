@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace truth
 {
@@ -47,42 +48,85 @@ bool isEdge(const Sample& a, const Sample& b)
     return a.seen != b.seen || (a.seen != Seen::NOTHING && !goesOn(a, b));
 }
 
-/// Whether anything but the sample's answer is found within a pixel: thin things lie between the
-/// centers of pixels.
-bool isEdgeNear(const ShadowTruth& truth, const Light& light, const Sample& center, double x,
-                double y, double pixelX, double pixelY)
+/// A pixel whose answer is asked for.
+struct Question
+{
+    const ShadowTruth& truth;
+    const Light& light;
+    const Sample& sample; ///< At its center.
+    osg::Vec2d center;    ///< In normalized device coordinates, as
+    osg::Vec2d pixel;     ///< the size of a pixel.
+    Seen seen;            ///< In the mask.
+};
+
+/// Whether an edge of a shadow or an object lies within a pixel: thin things lie between the
+/// centers of pixels, and an object may end where what is behind it is as dark.
+bool isEdgeNear(const Question& q)
 {
     constexpr int Steps = 12; // on each side
+    std::vector<int> known = {q.sample.triangle};
     for (int j = -Steps; j <= Steps; ++j)
     {
         for (int i = -Steps; i <= Steps; ++i)
         {
-            const Sample near = truth.sample(light, x + pixelX * i / Steps, y + pixelY * j / Steps);
-            if (near.seen != center.seen)
+            const osg::Vec2d p =
+                q.center + osg::Vec2d(q.pixel.x() * i / Steps, q.pixel.y() * j / Steps);
+            const Sample near = q.truth.sample(q.light, p.x(), p.y());
+            if (near.seen != q.sample.seen)
+                return true;
+            if (std::find(known.begin(), known.end(), near.triangle) != known.end())
+                continue;
+            known.push_back(near.triangle);
+            if (q.truth.isObjectEdgeBetween(q.center, p))
                 return true;
         }
     }
-    for (const osg::Vec2d& point : truth.findEdgePoints(light, x, y, {pixelX, pixelY}))
-        if (truth.sample(light, point.x(), point.y()).seen != center.seen)
+    for (const osg::Vec2d& point :
+         q.truth.findEdgePoints(q.light, q.center.x(), q.center.y(), q.pixel))
+        if (q.truth.sample(q.light, point.x(), point.y()).seen != q.sample.seen)
             return true;
     return false;
 }
 
 /// Whether the light lies so near to planes of casters that its float position may have decided.
-bool isWithinLightRounding(const ShadowTruth& truth, Light light, double x, double y, Seen seen)
+bool isWithinLightRounding(const Question& q)
 {
     // On which side of a triangle that it touches the light lies is anybody's guess, and a wrong
     // guess takes the triangle's shadow away where there is another's.
-    for (const Triangle& triangle : truth.getScene().triangles)
-        if (touches(triangle, truth.getScene().frames[triangle.frame], light))
+    const Scene& scene = q.truth.getScene();
+    for (const Triangle& triangle : scene.triangles)
+        if (touches(triangle, scene.frames[triangle.frame], q.light))
             return true;
+    Light light = q.light;
     for (int side : {-1, 0, 1})
     {
         light.sideIfNear = side;
-        if (truth.sample(light, x, y).seen == seen)
+        if (q.truth.sample(light, q.center.x(), q.center.y()).seen == q.seen)
             return true;
     }
     return false;
+}
+
+bool isWithinQuantum(const Question& q)
+{
+    const double x = q.center.x(), y = q.center.y();
+    return q.truth.isWithinDepthQuantum(q.light, x, y, q.seen) ||
+           q.truth.isWithinSnapping(q.light, x, y, q.pixel);
+}
+
+/// The number that a wrong pixel adds to, away from the band and from grazing light. Each question
+/// takes long; a picture with more wrong pixels than are left is wrong.
+unsigned int& excuse(const Question& q, unsigned int& questions, MaskDifference& difference)
+{
+    const bool isAsked = questions > 0;
+    questions -= isAsked;
+    if (isAsked && isEdgeNear(q))
+        return difference.wrongBand;
+    if (isAsked && isWithinQuantum(q))
+        return difference.withinQuantum;
+    if (isWithinLightRounding(q))
+        return difference.withinRounding;
+    return difference.leaks;
 }
 
 } // namespace
@@ -94,9 +138,35 @@ double MaskDifference::getErrorShare() const
                : 0.0;
 }
 
-std::vector<Zone> zonesOf(const std::vector<Sample>& samples, int width, int height)
+std::string MaskDifference::describe() const
 {
-    std::vector<Zone> zones(samples.size());
+    char line[400];
+    std::snprintf(line, sizeof line,
+                  "of %u pixels, %u shadowed and %u in the band, wrong in the band %u, at grazing "
+                  "light %u (colors off by %.2f/255), within a quantum of depth %u, of the light "
+                  "%u, leaks %u",
+                  object, shadowed, band, wrongBand, wrongGrazing, 255.0 * worstGrazing,
+                  withinQuantum, withinRounding, leaks);
+    return line;
+}
+
+void MaskDifference::add(const MaskDifference& other)
+{
+    object += other.object;
+    band += other.band;
+    grazing += other.grazing;
+    shadowed += other.shadowed;
+    wrongBand += other.wrongBand;
+    wrongGrazing += other.wrongGrazing;
+    worstGrazing = std::max(worstGrazing, other.worstGrazing);
+    withinQuantum += other.withinQuantum;
+    withinRounding += other.withinRounding;
+    leaks += other.leaks;
+}
+
+TruthPicture::TruthPicture(const ShadowTruth& truth, const Light& light, int w, int h)
+    : width(w), height(h), samples(truth.render(light, w, h)), zones(samples.size())
+{
     for (int y = 0; y < height; ++y)
     {
         for (int x = 0; x < width; ++x)
@@ -112,12 +182,10 @@ std::vector<Zone> zonesOf(const std::vector<Sample>& samples, int width, int hei
                                                                   : Zone::OTHER;
         }
     }
-    return zones;
 }
 
-double bandShare(const std::vector<Sample>& samples, int width, int height)
+double TruthPicture::getBandShare() const
 {
-    const std::vector<Zone> zones = zonesOf(samples, width, height);
     std::size_t band = 0, object = 0;
     for (std::size_t i = 0; i < samples.size(); ++i)
     {
@@ -127,55 +195,52 @@ double bandShare(const std::vector<Sample>& samples, int width, int height)
     return object ? double(band) / double(object) : 0.0;
 }
 
-MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, const Light& light,
-                           const std::vector<Sample>& samples, std::vector<unsigned char>* wrong)
+LightColor matteWhite(const TruthPicture& picture)
 {
-    const int width = mask.s(), height = mask.t();
-    const std::vector<Zone> zones = zonesOf(samples, width, height);
+    return [&picture](int x, int y)
+    { return static_cast<float>(picture.samples[y * picture.width + x].grazing); };
+}
+
+MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, const Light& light,
+                           const TruthPicture& picture, const LightColor& color,
+                           std::vector<unsigned char>* wrong)
+{
+    const int width = picture.width, height = picture.height;
+    const osg::Vec2d pixel(2.0 / width, 2.0 / height);
     MaskDifference result;
-    // A picture with so many wrong pixels is wrong; no need to look at each.
     unsigned int questions = 500;
-    for (int y = 0; y < height; ++y)
+    for (int i = 0; i < width * height; ++i)
     {
-        for (int x = 0; x < width; ++x)
-        {
-            const Sample& sample = samples[y * width + x];
-            const Zone zone = zones[y * width + x];
-            const bool object = sample.seen != Seen::NOTHING;
-            result.object += object;
-            result.shadowed += sample.seen == Seen::SHADOWED;
-            result.band += object && zone == Zone::BAND;
-            result.grazing += zone == Zone::GRAZING;
-            const Seen seen = seenIn(mask, x, y);
-            const bool right = isRight(seen, sample.seen);
-            if (wrong)
-                wrong->push_back(right ? 0 : 1);
-            if (right)
-                continue;
-            const double ndcX = 2.0 * (x + 0.5) / width - 1.0;
-            const double ndcY = 2.0 * (y + 0.5) / height - 1.0;
-            if (zone == Zone::BAND)
-                ++result.wrongBand;
-            else if (zone == Zone::GRAZING)
-                ++result.wrongGrazing;
-            else if (questions && questions-- &&
-                     isEdgeNear(truth, light, sample, ndcX, ndcY, 2.0 / width, 2.0 / height))
-                ++result.wrongBand;
-            else if (questions &&
-                     (truth.isWithinDepthQuantum(light, ndcX, ndcY, seen) ||
-                      truth.isWithinSnapping(light, ndcX, ndcY, {2.0 / width, 2.0 / height})))
-                ++result.withinQuantum;
-            else if (isWithinLightRounding(truth, light, ndcX, ndcY, seen))
-                ++result.withinRounding;
-            else
-            {
-                ++result.leaks;
-                if (result.leakPixels.size() < 100)
-                    result.leakPixels.emplace_back(x, y);
-                if (wrong)
-                    wrong->back() = 2;
-            }
-        }
+        const int x = i % width, y = i / width;
+        const Sample& sample = picture.samples[i];
+        const Zone zone = picture.zones[i];
+        const bool object = sample.seen != Seen::NOTHING;
+        result.object += object;
+        result.shadowed += sample.seen == Seen::SHADOWED;
+        result.band += object && zone == Zone::BAND;
+        result.grazing += zone == Zone::GRAZING;
+        const Seen seen = seenIn(mask, x, y);
+        const bool right = isRight(seen, sample.seen);
+        if (wrong)
+            wrong->push_back(right ? 0 : 1);
+        if (right)
+            continue;
+        const float error = zone == Zone::GRAZING ? color(x, y) : 1.0f;
+        const osg::Vec2d center(pixel.x() * (x + 0.5) - 1.0, pixel.y() * (y + 0.5) - 1.0);
+        if (zone == Zone::GRAZING && error <= 1.0f / 255.0f)
+            result.worstGrazing = std::max(result.worstGrazing, error);
+        unsigned int& number =
+            zone == Zone::BAND ? result.wrongBand
+            : error <= 1.0f / 255.0f
+                ? result.wrongGrazing
+                : excuse({truth, light, sample, center, pixel, seen}, questions, result);
+        ++number;
+        if (&number != &result.leaks)
+            continue;
+        if (result.leakPixels.size() < 100)
+            result.leakPixels.emplace_back(x, y);
+        if (wrong)
+            wrong->back() = 2;
     }
     return result;
 }

@@ -67,17 +67,7 @@ TEST(ShadowSoupGLTest, randomScenesHaveNoLeak)
         const truth::MaskResult result =
             check().compare(*soup.createNode(), soup.camera, 0, name, truth::volumeWays(), false);
         for (const auto& [way, difference] : result.differences)
-        {
-            truth::MaskDifference& sum = sums[way];
-            sum.object += difference.object;
-            sum.band += difference.band;
-            sum.shadowed += difference.shadowed;
-            sum.wrongBand += difference.wrongBand;
-            sum.wrongGrazing += difference.wrongGrazing;
-            sum.withinQuantum += difference.withinQuantum;
-            sum.withinRounding += difference.withinRounding;
-            sum.leaks += difference.leaks;
-        }
+            sums[way].add(difference);
         if (!result.getLeaks())
             continue;
         ++failed;
@@ -87,10 +77,7 @@ TEST(ShadowSoupGLTest, randomScenesHaveNoLeak)
     }
     for (const auto& [way, sum] : sums)
     {
-        std::printf("%s: of %u pixels, %u shadowed and %u in the band, wrong in the band %u, at "
-                    "grazing light %u, within a quantum of depth %u, of the light %u, leaks %u\n",
-                    way.c_str(), sum.object, sum.shadowed, sum.band, sum.wrongBand,
-                    sum.wrongGrazing, sum.withinQuantum, sum.withinRounding, sum.leaks);
+        std::printf("%s: %s\n", way.c_str(), sum.describe().c_str());
         EXPECT_GT(sum.shadowed, sum.object / 20) << "nothing would be seen of a shadow";
     }
 }

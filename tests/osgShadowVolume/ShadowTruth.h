@@ -64,6 +64,11 @@ public:
     std::vector<osg::Vec2d> findEdgePoints(const Light& light, double x, double y,
                                            const osg::Vec2d& pixel) const;
 
+    /// Whether on the way between two points of the picture the surface that is seen at the first
+    /// one ends before or behind another one, more than a quantum of depth away: at its own edge,
+    /// at one of another before it, or where the near plane cuts either.
+    bool isObjectEdgeBetween(const osg::Vec2d& from, const osg::Vec2d& to) const;
+
     /// Whether `seen` is the answer too for a surface that is found one quantum of a 24-bit depth
     /// buffer (2^-24) nearer or farther. What the surface casts on itself is not asked anew.
     bool isWithinDepthQuantum(const Light& light, double x, double y, Seen seen) const;

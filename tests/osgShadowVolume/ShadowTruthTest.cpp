@@ -251,8 +251,8 @@ TEST(ShadowTruthTest, maskFromBesideThePixelCentersIsWrongInTheBandAlone)
         const SoupScene soup(seed);
         const ShadowTruth truth(*soup.createNode(), soup.camera);
         const truth::Light& l = truth.getScene().lights[0];
-        const auto samples = truth.render(l, Width, Height);
-        auto moved = samples;
+        const truth::TruthPicture picture(truth, l, Width, Height);
+        auto moved = picture.samples;
         for (int i = 0; i < Width * Height; ++i)
         {
             truth::Sample& sample = moved[i];
@@ -262,7 +262,8 @@ TEST(ShadowTruthTest, maskFromBesideThePixelCentersIsWrongInTheBandAlone)
                 sample.seen = Seen::LIT;
         }
         const auto mask = truth::toImage(moved, Width, Height);
-        const truth::MaskDifference difference = truth::compareMask(*mask, truth, l, samples);
+        const truth::MaskDifference difference =
+            truth::compareMask(*mask, truth, l, picture, truth::matteWhite(picture));
         EXPECT_EQ(difference.leaks, 0u) << "seed " << seed;
         EXPECT_GT(difference.wrongBand, 0u) << "seed " << seed;
     }
@@ -301,10 +302,11 @@ TEST(ShadowTruthTest, wrongPixelsAreSortedIntoBandGrazingAndLeaks)
     scene->addChild(geodeOf(square(3.0f, 0.0f)));
     const ShadowTruth truth(*scene, camera());
     const truth::Light& l = truth.getScene().lights[0];
-    const auto samples = truth.render(l, Width, Height);
+    const truth::TruthPicture picture(truth, l, Width, Height);
+    const auto& [width, height, samples, zones] = picture;
     const osg::ref_ptr<osg::Image> mask = truth::toImage(samples, Width, Height);
-    EXPECT_EQ(truth::compareMask(*mask, truth, l, samples).leaks, 0u);
-    const auto zones = truth::zonesOf(samples, Width, Height);
+    const truth::LightColor color = truth::matteWhite(picture);
+    EXPECT_EQ(truth::compareMask(*mask, truth, l, picture, color).leaks, 0u);
     unsigned int inBand = 0, elsewhere = 0;
     for (int i = 0; i < Width * Height; i += 7)
     {
@@ -313,7 +315,7 @@ TEST(ShadowTruthTest, wrongPixelsAreSortedIntoBandGrazingAndLeaks)
         (zones[i] == truth::Zone::BAND ? inBand : elsewhere)++;
         std::fill_n(mask->data(i % Width, i / Width), 3, samples[i].seen == Seen::LIT ? 0 : 255);
     }
-    const truth::MaskDifference difference = truth::compareMask(*mask, truth, l, samples);
+    const truth::MaskDifference difference = truth::compareMask(*mask, truth, l, picture, color);
     EXPECT_GT(inBand, 0u);
     EXPECT_EQ(difference.wrongBand, inBand);
     EXPECT_EQ(difference.leaks, elsewhere);

@@ -11,6 +11,7 @@
 #include <osg/Geometry>
 #include <osg/LOD>
 #include <osg/NodeVisitor>
+#include <osg/PolygonMode>
 #include <osgDB/ReadFile>
 
 #include <filesystem>
@@ -26,7 +27,8 @@ truth::MaskCheck& check()
     return check;
 }
 
-/// Takes away what the truth does not know: lights of the model's own, lines and points.
+/// Takes away what the truth does not know: lights of the model's own, lines and points, and
+/// polygons drawn as such, which cover pixels.
 class Preparation : public osg::NodeVisitor
 {
 public:
@@ -37,10 +39,13 @@ public:
 
     void apply(osg::Node& node) override
     {
-        if (node.getStateSet() &&
-            node.getStateSet()->getRenderingHint() == osg::StateSet::TRANSPARENT_BIN)
+        const osg::StateSet* const state = node.getStateSet();
+        if (state && state->getRenderingHint() == osg::StateSet::TRANSPARENT_BIN)
             isUsable = false;
-        traverse(node);
+        if (isWireframe(state))
+            node.setNodeMask(0);
+        else
+            traverse(node);
     }
 
     void apply(osg::LOD&) override { isUsable = false; }
@@ -53,6 +58,8 @@ public:
 
     void apply(osg::Geometry& geometry) override
     {
+        if (isWireframe(geometry.getStateSet()))
+            return geometry.setNodeMask(0);
         for (unsigned int i = geometry.getNumPrimitiveSets(); i-- > 0;)
         {
             const osg::PrimitiveSet& set = *geometry.getPrimitiveSet(i);
@@ -62,6 +69,15 @@ public:
                 triangles += set.getNumIndices() / 3;
         }
         apply(static_cast<osg::Node&>(geometry));
+    }
+
+private:
+    static bool isWireframe(const osg::StateSet* state)
+    {
+        const auto* const mode = state ? static_cast<const osg::PolygonMode*>(
+                                             state->getAttribute(osg::StateAttribute::POLYGONMODE))
+                                       : nullptr;
+        return mode && mode->getMode(osg::PolygonMode::FRONT) != osg::PolygonMode::FILL;
     }
 };
 

@@ -175,6 +175,14 @@ void SoupMaker::makeCamera()
                                                             4.0 / 3.0, near, far + near);
 }
 
+osg::Vec3 normalOf(const SoupScene::Triangle& t)
+{
+    osg::Vec3d normal =
+        osg::Vec3d(t.corner[1] - t.corner[0]) ^ osg::Vec3d(t.corner[2] - t.corner[0]);
+    normal.normalize();
+    return normal;
+}
+
 void print(std::ostream& out, const osg::Matrixd& m)
 {
     for (int i = 0; i < 16; ++i)
@@ -196,13 +204,19 @@ osg::ref_ptr<osg::Group> SoupScene::createNode() const
     for (unsigned int i = 0; i < matrices.size(); ++i)
     {
         osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        osg::ref_ptr<osg::Vec3Array> normals = new osg::Vec3Array(osg::Array::BIND_PER_VERTEX);
         for (const Triangle& triangle : triangles)
-            if (triangle.drawable == i)
-                vertices->insert(vertices->end(), triangle.corner, triangle.corner + 3);
+        {
+            if (triangle.drawable != i)
+                continue;
+            vertices->insert(vertices->end(), triangle.corner, triangle.corner + 3);
+            normals->insert(normals->end(), 3, normalOf(triangle));
+        }
         if (vertices->empty())
             continue;
         osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
         geometry->setVertexArray(vertices);
+        geometry->setNormalArray(normals);
         geometry->addPrimitiveSet(
             new osg::DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices->size())));
         osg::ref_ptr<osg::Geode> geode = new osg::Geode;
