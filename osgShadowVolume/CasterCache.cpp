@@ -31,29 +31,6 @@ std::size_t CasterCache::Hash::operator()(const Key& key) const
     return hash ^ hash >> 32;
 }
 
-std::vector<CasterCache::Content> CasterCache::contentsOf(const CasterSource& source)
-{
-    std::vector<Content> contents;
-    contents.reserve(2 * source.size());
-    const auto add = [&](const osg::BufferData* data, std::size_t size) {
-        contents.push_back({data, data->getModifiedCount(), size});
-    };
-    for (const auto& drawable : source)
-    {
-        const osg::Geometry* geometry = drawable->asGeometry();
-        if (!geometry)
-            continue;
-        if (const osg::Array* array = geometry->getVertexArray())
-            add(array, array->getNumElements());
-        else if (geometry->getNumVertexAttribArrays() > 0 && geometry->getVertexAttribArray(0))
-            add(geometry->getVertexAttribArray(0),
-                geometry->getVertexAttribArray(0)->getNumElements());
-        for (unsigned int i = 0; i != geometry->getNumPrimitiveSets(); ++i)
-            add(geometry->getPrimitiveSet(i), geometry->getPrimitiveSet(i)->getNumIndices());
-    }
-    return contents;
-}
-
 bool CasterCache::isAlive(const Entry& entry)
 {
     return std::all_of(entry.drawables.begin(), entry.drawables.end(),
@@ -66,7 +43,10 @@ osg::ref_ptr<CasterMesh> CasterCache::get(const CasterSource& source)
     key.reserve(source.size());
     for (const auto& drawable : source)
         key.push_back(drawable.get());
-    std::vector<Content> contents = contentsOf(source);
+    std::vector<TriangleContent> contents;
+    contents.reserve(2 * source.size());
+    for (const auto& drawable : source)
+        appendContents(*drawable, contents);
     osg::ref_ptr<CasterMesh> mesh;
     {
         std::lock_guard<std::mutex> lock(_mutex);

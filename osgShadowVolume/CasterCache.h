@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgShadowVolume/CasterMesh.h>
+#include <osgShadowVolume/TriangleReader.h>
 
 #include <osg/observer_ptr>
 
@@ -41,21 +42,10 @@ protected:
     ~CasterCache() override;
 
 private:
-    /// What a mesh was made from. Held, so that no other array comes to lie at the same address.
-    struct Content
-    {
-        osg::ref_ptr<const osg::BufferData> data;
-        unsigned int modifiedCount;
-        std::size_t size;
-        bool operator==(const Content& o) const
-        {
-            return data == o.data && modifiedCount == o.modifiedCount && size == o.size;
-        }
-    };
     struct Entry
     {
         std::vector<osg::observer_ptr<const osg::Drawable>> drawables;
-        std::vector<Content> contents;
+        std::vector<TriangleContent> contents;
         osg::ref_ptr<CasterMesh> mesh;
         std::size_t lastUse; ///< In frames counted here.
     };
@@ -64,7 +54,6 @@ private:
     {
         std::size_t operator()(const Key& key) const;
     };
-    static std::vector<Content> contentsOf(const CasterSource& source);
     static bool isAlive(const Entry& entry);
 
     mutable std::mutex _mutex;

@@ -169,8 +169,8 @@ void CasterDraw::drawParts(Pass pass, const Placed& placed)
     default:
         break;
     }
-    const auto volume =
-        _view.resources.silhouettes.get(placed.mesh, placed.light, _view.frameNumber);
+    const auto volume = _view.resources.silhouettes.get(
+        placed.mesh, placed.light, _view.renderInfo.getContextID(), _view.frameNumber);
     for (const auto& [weight, geometry] :
          pass == Pass::TriangleSides ? volume->sides : volume->caps)
     {

@@ -78,12 +78,13 @@ bool MirrorCamera::isInside(const osg::NodeVisitor& visitor)
                        { return dynamic_cast<const MirrorCamera*>(node) != nullptr; });
 }
 
-osg::ref_ptr<MirrorCamera> MirrorPool::acquire(const MirrorLayout& layout)
+osg::ref_ptr<MirrorCamera> MirrorPool::acquire(unsigned int contextID, const MirrorLayout& layout)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto found =
         std::find_if(_free.begin(), _free.end(),
-                     [&](const Free& free) { return free.camera->getLayout() == layout; });
+                     [&](const Free& free)
+                     { return free.contextID == contextID && free.camera->getLayout() == layout; });
     if (found == _free.end())
         return new MirrorCamera(layout);
     osg::ref_ptr<MirrorCamera> camera = found->camera;
@@ -91,22 +92,25 @@ osg::ref_ptr<MirrorCamera> MirrorPool::acquire(const MirrorLayout& layout)
     return camera;
 }
 
-void MirrorPool::release(osg::ref_ptr<MirrorCamera> camera, unsigned int frameNumber)
+void MirrorPool::release(unsigned int contextID, osg::ref_ptr<MirrorCamera> camera,
+                         unsigned int frameNumber)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    _free.push_back({std::move(camera), frameNumber});
+    _free.push_back({contextID, std::move(camera), frameNumber});
 }
 
-void MirrorPool::evict(unsigned int frameNumber)
+void MirrorPool::evict(unsigned int contextID, unsigned int frameNumber)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     _free.erase(std::remove_if(_free.begin(), _free.end(),
-                               [&](const Free& free)
-                               { return frameNumber - free.frameNumber > FramesKept; }),
+                               [&](const Free& free) {
+                                   return free.contextID == contextID &&
+                                          frameNumber - free.frameNumber > FramesKept;
+                               }),
                 _free.end());
 }
 
-void MirrorPool::releaseGLObjects(osg::State* state) const
+void MirrorPool::releaseGLObjects(osg::State* state)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     for (const Free& free : _free)

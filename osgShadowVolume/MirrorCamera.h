@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgShadowVolume/Export.h>
+
 #include <osg/Camera>
 #include <osg/Texture2D>
 
@@ -30,7 +32,7 @@ struct MirrorLayout
 /// mirror's pixels where the view has the mirror. It is left and right exchanged: a reflection
 /// turns triangles round, and so does the exchange, so that front faces stay front faces whatever
 /// the model says of them.
-class MirrorCamera : public osg::Camera
+class OSGSHADOWVOLUME_EXPORT MirrorCamera : public osg::Camera
 {
 public:
     explicit MirrorCamera(const MirrorLayout& layout);
@@ -64,23 +66,26 @@ private:
     osg::Group* _group = nullptr; ///< During cull().
 };
 
-/// The cameras of a ShadowedScene that no frame uses just now. Thread safe.
-class MirrorPool
+/// The cameras of a ShadowedScene that no frame uses just now. Each graphics context has its own:
+/// frames of different viewers are counted apart. Thread safe.
+class OSGSHADOWVOLUME_EXPORT MirrorPool
 {
 public:
-    osg::ref_ptr<MirrorCamera> acquire(const MirrorLayout& layout);
-    void release(osg::ref_ptr<MirrorCamera> camera, unsigned int frameNumber);
-    /// Drops those that have not been used for some frames, and their textures with them.
-    void evict(unsigned int frameNumber);
-    void releaseGLObjects(osg::State* state) const;
+    osg::ref_ptr<MirrorCamera> acquire(unsigned int contextID, const MirrorLayout& layout);
+    void release(unsigned int contextID, osg::ref_ptr<MirrorCamera> camera,
+                 unsigned int frameNumber);
+    /// Drops those of the context that have not been used for some frames, and their textures.
+    void evict(unsigned int contextID, unsigned int frameNumber);
+    void releaseGLObjects(osg::State* state);
 
 private:
     struct Free
     {
+        unsigned int contextID = 0;
         osg::ref_ptr<MirrorCamera> camera;
         unsigned int frameNumber = 0;
     };
-    mutable std::mutex _mutex;
+    std::mutex _mutex;
     std::vector<Free> _free;
 };
 

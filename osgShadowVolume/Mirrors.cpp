@@ -155,16 +155,17 @@ struct Mirrors::Found
 std::optional<MirrorShape> MirrorShapes::get(const NamedMirror& mirror, std::string& error)
 {
     const osg::Drawable* drawable = mirror.drawable;
-    const osg::Geometry* geometry = drawable->asGeometry();
-    const unsigned int modified =
-        geometry && geometry->getVertexArray() ? geometry->getVertexArray()->getModifiedCount() : 0;
+    std::vector<TriangleContent> contents;
+    appendContents(*drawable, contents);
     std::lock_guard<std::mutex> lock(_mutex);
     Known& known = _known[drawable];
+    known.lastUse = _frames;
     const bool isNew = known.drawable.get() != drawable;
-    if (isNew || known.modified != modified || drawable->getDataVariance() == osg::Object::DYNAMIC)
+    if (isNew || !(known.contents == contents) ||
+        drawable->getDataVariance() == osg::Object::DYNAMIC)
     {
         known.drawable = drawable;
-        known.modified = modified;
+        known.contents = std::move(contents);
         known.error.clear();
         known.shape = fitMirror(trianglesOf(*drawable), known.error);
         if (!known.shape && isNew)
@@ -177,6 +178,26 @@ std::optional<MirrorShape> MirrorShapes::get(const NamedMirror& mirror, std::str
     }
     error = known.error;
     return known.shape;
+}
+
+void MirrorShapes::evict(unsigned int frameNumber)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (frameNumber == _frameNumber)
+        return;
+    _frameNumber = frameNumber;
+    ++_frames;
+    for (auto known = _known.begin(); known != _known.end();)
+        if (_frames - known->second.lastUse > FramesUnused || !known->second.drawable.valid())
+            known = _known.erase(known);
+        else
+            ++known;
+}
+
+std::size_t MirrorShapes::getSize() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _known.size();
 }
 
 Mirrors::Mirrors(const ShadowSettings& settings, MirrorResources& resources)
@@ -203,7 +224,9 @@ void Mirrors::cull(osgUtil::CullVisitor& visitor, osg::Group& group)
         return;
     }
     _frameNumber = visitor.getFrameStamp() ? visitor.getFrameStamp()->getFrameNumber() : 0;
-    _resources.pool.evict(_frameNumber);
+    _contextID = visitor.getState() ? visitor.getState()->getContextID() : 0;
+    _resources.pool.evict(_contextID, _frameNumber);
+    _resources.shapes.evict(_frameNumber);
     if (!visitor.getViewport() || measuresLight(_settings) || _settings.show == Show::MASK)
         return;
     MirrorCollector collector(visitor);
@@ -318,7 +341,7 @@ void Mirrors::draw(osgUtil::CullVisitor& visitor, osg::Group& group, Plane& plan
     layout.width = int(visitor.getViewport()->width());
     layout.height = int(visitor.getViewport()->height());
     layout.samples = samplesOf(view);
-    osg::ref_ptr<MirrorCamera> camera = _resources.pool.acquire(layout);
+    osg::ref_ptr<MirrorCamera> camera = _resources.pool.acquire(_contextID, layout);
     _cameras.push_back(camera);
     const Found& first = found[plane.members.front()];
     camera->setName(inQuotes(first.mirror.name) +
@@ -406,7 +429,7 @@ void Mirrors::apply(osg::State& state, const osg::Program::PerContextProgram& pr
 void Mirrors::drawn()
 {
     for (osg::ref_ptr<MirrorCamera>& camera : _cameras)
-        _resources.pool.release(std::move(camera), _frameNumber);
+        _resources.pool.release(_contextID, std::move(camera), _frameNumber);
     _cameras.clear();
 }
 

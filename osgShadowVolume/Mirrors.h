@@ -5,6 +5,7 @@
 #include <osgShadowVolume/MirrorCollector.h>
 #include <osgShadowVolume/MirrorShape.h>
 #include <osgShadowVolume/ShadowSettings.h>
+#include <osgShadowVolume/TriangleReader.h>
 
 #include <osgMultiRender/Plan.h>
 
@@ -17,22 +18,32 @@
 namespace osgShadowVolume
 {
 
-/// Shapes of mirrors from frame to frame. Thread safe.
-class MirrorShapes
+/// Shapes of mirrors from frame to frame, for as long as their vertices and indices stay what they
+/// are. Thread safe.
+class OSGSHADOWVOLUME_EXPORT MirrorShapes
 {
 public:
     /// In local coordinates. What is no mirror is said once, as a warning, and in `error`.
     std::optional<MirrorShape> get(const NamedMirror& mirror, std::string& error);
+    /// Forgets shapes that were not asked for in 60 frames, and those of dead Drawables. Frames of
+    /// different viewers add up.
+    void evict(unsigned int frameNumber);
+    std::size_t getSize() const;
 
 private:
+    static constexpr unsigned int FramesUnused = 60;
+
     struct Known
     {
         osg::observer_ptr<const osg::Drawable> drawable;
-        unsigned int modified = 0;
+        std::vector<TriangleContent> contents;
         std::optional<MirrorShape> shape;
         std::string error;
+        std::size_t lastUse = 0; ///< In frames counted here.
     };
-    std::mutex _mutex;
+    mutable std::mutex _mutex;
+    std::size_t _frames = 0;
+    unsigned int _frameNumber = 0;
     std::unordered_map<const osg::Drawable*, Known> _known;
 };
 
@@ -99,6 +110,7 @@ private:
 
     const ShadowSettings _settings;
     MirrorResources& _resources;
+    unsigned int _contextID = 0;
     unsigned int _frameNumber = 0;
     osg::Vec2d _offset; ///< Of gl_FragCoord from texels; x runs the other way.
     std::vector<osg::ref_ptr<MirrorCamera>> _cameras;

@@ -2,6 +2,7 @@
 #include <osgShadowVolume/SilhouetteCache.h>
 
 #include <osg/Geometry>
+#include <osg/State>
 
 namespace osgShadowVolume
 {
@@ -39,14 +40,14 @@ osg::ref_ptr<SilhouetteCache::Volume> makeVolume(CasterMesh& mesh, const MeshLig
 
 osg::ref_ptr<SilhouetteCache::Volume> SilhouetteCache::get(const osg::ref_ptr<CasterMesh>& mesh,
                                                            const MeshLight& light,
+                                                           unsigned int contextID,
                                                            unsigned int frameNumber)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (frameNumber != _frameNumber)
-        evict(frameNumber);
-    Entry& entry =
-        _entries[Key(mesh.get(), light.light.x, light.light.y, light.light.z, light.light.w,
-                     light.rest.x, light.rest.y, light.rest.z, light.endsInAPoint())];
+    evict(contextID, frameNumber);
+    Entry& entry = _entries[Key(contextID, mesh.get(), light.light.x, light.light.y, light.light.z,
+                                light.light.w, light.rest.x, light.rest.y, light.rest.z,
+                                light.endsInAPoint())];
     if (!entry.volume)
     {
         entry.mesh = mesh;
@@ -56,11 +57,16 @@ osg::ref_ptr<SilhouetteCache::Volume> SilhouetteCache::get(const osg::ref_ptr<Ca
     return entry.volume;
 }
 
-void SilhouetteCache::evict(unsigned int frameNumber)
+void SilhouetteCache::evict(unsigned int contextID, unsigned int frameNumber)
 {
-    _frameNumber = frameNumber;
+    if (const auto [last, isNew] = _frameNumbers.emplace(contextID, frameNumber);
+        !isNew && last->second == frameNumber)
+        return;
+    _frameNumbers[contextID] = frameNumber;
     for (auto entry = _entries.begin(); entry != _entries.end();)
-        if (entry->second.frameNumber + FramesUnused < frameNumber)
+        // A viewer that starts anew counts from 0 again: that is far away, too.
+        if (std::get<0>(entry->first) == contextID &&
+            frameNumber - entry->second.frameNumber > FramesUnused)
             entry = _entries.erase(entry);
         else
             ++entry;
@@ -69,10 +75,16 @@ void SilhouetteCache::evict(unsigned int frameNumber)
 void SilhouetteCache::releaseGLObjects(osg::State* state)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    for (const auto& [key, entry] : _entries)
-        for (const auto* parts : {&entry.volume->sides, &entry.volume->caps})
-            for (const auto& [weight, geometry] : *parts)
-                geometry->releaseGLObjects(state);
+    for (auto entry = _entries.begin(); entry != _entries.end();)
+        if (!state || std::get<0>(entry->first) == state->getContextID())
+        {
+            for (const auto* parts : {&entry->second.volume->sides, &entry->second.volume->caps})
+                for (const auto& [weight, geometry] : *parts)
+                    geometry->releaseGLObjects(state);
+            entry = _entries.erase(entry);
+        }
+        else
+            ++entry;
 }
 
 } // namespace osgShadowVolume

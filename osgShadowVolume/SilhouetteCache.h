@@ -13,8 +13,9 @@
 namespace osgShadowVolume
 {
 
-/// Volumes found on the CPU, kept while neither light nor caster moves. Thread safe.
-class SilhouetteCache
+/// Volumes found on the CPU, kept while neither light nor caster moves. Each graphics context has
+/// its own: frames of different viewers are counted apart. Thread safe.
+class OSGSHADOWVOLUME_EXPORT SilhouetteCache
 {
 public:
     struct Volume : public osg::Referenced
@@ -29,7 +30,8 @@ public:
 
     /// The volume of a mesh; `light` as of toMeshLight().
     osg::ref_ptr<Volume> get(const osg::ref_ptr<CasterMesh>& mesh, const MeshLight& light,
-                             unsigned int frameNumber);
+                             unsigned int contextID, unsigned int frameNumber);
+    /// Forgets the volumes of the context; without one, all.
     void releaseGLObjects(osg::State* state);
 
 private:
@@ -41,14 +43,14 @@ private:
         osg::ref_ptr<Volume> volume;
         unsigned int frameNumber = 0;
     };
-    using Key =
-        std::tuple<const CasterMesh*, float, float, float, float, float, float, float, bool>;
+    using Key = std::tuple<unsigned int, const CasterMesh*, float, float, float, float, float,
+                           float, float, bool>;
 
-    void evict(unsigned int frameNumber);
+    void evict(unsigned int contextID, unsigned int frameNumber);
 
     std::mutex _mutex;
     std::map<Key, Entry> _entries;
-    unsigned int _frameNumber = 0;
+    std::map<unsigned int, unsigned int> _frameNumbers; ///< By context.
 };
 
 } // namespace osgShadowVolume

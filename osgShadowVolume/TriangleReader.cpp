@@ -192,4 +192,19 @@ std::size_t readTriangles(const osg::Drawable& drawable, const UseTriangle& use)
     return functor.bad;
 }
 
+void appendContents(const osg::Drawable& drawable, std::vector<TriangleContent>& contents)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry)
+        return;
+    if (const osg::Array* array = vertexArrayOf(*geometry))
+        contents.push_back({array, array->getModifiedCount(), array->getNumElements()});
+    for (unsigned int i = 0; i != geometry->getNumPrimitiveSets(); ++i)
+    {
+        const osg::PrimitiveSet* primitives = geometry->getPrimitiveSet(i);
+        contents.push_back(
+            {primitives, primitives->getModifiedCount(), primitives->getNumIndices()});
+    }
+}
+
 } // namespace osgShadowVolume

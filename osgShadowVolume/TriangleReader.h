@@ -5,9 +5,11 @@
 
 #include <glm/glm.hpp>
 
+#include <osg/BufferObject>
 #include <osg/Drawable>
 
 #include <functional>
+#include <vector>
 
 namespace osgShadowVolume
 {
@@ -26,5 +28,23 @@ OSGSHADOWVOLUME_EXPORT bool hasTriangles(const osg::Drawable& drawable);
 /// along which diagonal.
 OSGSHADOWVOLUME_EXPORT std::size_t readTriangles(const osg::Drawable& drawable,
                                                  const UseTriangle& use);
+
+/// Something that the triangles of a Drawable are read from, as it was. Held, so that no other
+/// array comes to lie at the same address.
+struct TriangleContent
+{
+    osg::ref_ptr<const osg::BufferData> data;
+    unsigned int modifiedCount;
+    std::size_t size;
+
+    bool operator==(const TriangleContent& other) const
+    {
+        return data == other.data && modifiedCount == other.modifiedCount && size == other.size;
+    }
+};
+
+/// Appends what readTriangles() would read: it differs where an array or indices have been
+/// exchanged or made dirty(). Nothing of a Drawable that is no Geometry, which has no counts.
+void appendContents(const osg::Drawable& drawable, std::vector<TriangleContent>& contents);
 
 } // namespace osgShadowVolume

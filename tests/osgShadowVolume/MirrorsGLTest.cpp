@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include <osgShadowVolume/ShadowedScene.h>
-
-#include <support/CompareImage.h>
-#include <support/HeadlessViewer.h>
-#include <support/NotifyCapture.h>
+// What mirrors show.
+#include "MirrorPictures.h"
 
 #include <osg/BlendFunc>
-#include <osg/CullFace>
-#include <osg/Geode>
 #include <osg/Geometry>
-#include <osg/LightModel>
-#include <osg/LightSource>
 #include <osg/Material>
-#include <osg/MatrixTransform>
-#include <osg/ShapeDrawable>
 #include <osg/ValueObject>
 
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 
+using namespace mirrorScene;
 using osgMultiRender::PlanEntry;
 using osgShadowVolume::LitScene;
 using osgShadowVolume::ShadowedScene;
@@ -27,158 +18,6 @@ using osgShadowVolume::Shadows;
 
 namespace
 {
-
-constexpr int Width = 320, Height = 240;
-
-support::HeadlessViewer& viewer()
-{
-    static support::HeadlessViewer viewer({Width, Height});
-    if (viewer.isValid())
-        viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
-    return viewer;
-}
-
-support::CameraSpec camera(const osg::Vec3d& eye = {1.0, -9.0, 4.0},
-                           const osg::Vec3d& center = {0.0, 1.0, 1.0})
-{
-    return support::CameraSpec::perspective(eye, center, {0, 0, 1}, 50.0, double(Width) / Height,
-                                            0.5, 100.0);
-}
-
-osg::ref_ptr<osg::Image> picture(osg::Node& scene, const support::CameraSpec& from = camera())
-{
-    return viewer().render(&scene, from, Width, Height, 2);
-}
-
-/// Nothing shines but what a test's materials and lights say.
-osg::ref_ptr<ShadowedScene> emptyScene()
-{
-    osg::ref_ptr<ShadowedScene> scene = new ShadowedScene;
-    scene->setLightScope(LitScene::LightScope::ALL);
-    osg::StateSet* state = scene->getOrCreateStateSet();
-    state->setMode(GL_LIGHTING, osg::StateAttribute::ON);
-    osg::ref_ptr<osg::LightModel> model = new osg::LightModel;
-    model->setAmbientIntensity(osg::Vec4(0.2f, 0.2f, 0.2f, 1));
-    state->setAttribute(model);
-    return scene;
-}
-
-void setColor(osg::Node& node, const osg::Vec4& color, const osg::Vec4& emission = {0, 0, 0, 1})
-{
-    osg::ref_ptr<osg::Material> material = new osg::Material;
-    material->setDiffuse(osg::Material::FRONT_AND_BACK, color);
-    material->setAmbient(osg::Material::FRONT_AND_BACK, color);
-    material->setSpecular(osg::Material::FRONT_AND_BACK, osg::Vec4(0.3f, 0.3f, 0.3f, color.a()));
-    material->setShininess(osg::Material::FRONT_AND_BACK, 20.0f);
-    material->setEmission(osg::Material::FRONT_AND_BACK, emission);
-    node.getOrCreateStateSet()->setAttribute(material);
-}
-
-osg::ref_ptr<osg::Geode> box(const osg::Vec3& center, const osg::Vec3& size, const osg::Vec4& color)
-{
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(new osg::ShapeDrawable(new osg::Box(center, size.x(), size.y(), size.z())));
-    setColor(*geode, color);
-    return geode;
-}
-
-osg::ref_ptr<osg::Geode> quad(const osg::Vec3& corner, const osg::Vec3& u, const osg::Vec3& v,
-                              const osg::Vec4& color)
-{
-    osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(osg::createTexturedQuadGeometry(corner, u, v));
-    setColor(*geode, color);
-    return geode;
-}
-
-osg::ref_ptr<osg::LightSource> light(unsigned int number, const osg::Vec4& position,
-                                     const osg::Vec4& color)
-{
-    osg::ref_ptr<osg::Light> made = new osg::Light(number);
-    made->setPosition(position);
-    made->setDiffuse(color);
-    made->setSpecular(color);
-    made->setAmbient(osg::Vec4(0, 0, 0, 1));
-    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
-    source->setLight(made);
-    return source;
-}
-
-osg::ref_ptr<osg::Group> lights()
-{
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(light(0, {-2, -3, 6, 1}, {0.5f, 0.5f, 0.4f, 1}));
-    group->addChild(light(1, {3, -4, 5, 0}, {0.3f, 0.3f, 0.5f, 1}));
-    return group;
-}
-
-/// A table of boxes that throw shadows on each other and on the ground, all before the mirror.
-osg::ref_ptr<osg::Group> things()
-{
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->addChild(quad({-4, -8, 0}, {8, 0, 0}, {0, 8, 0}, {0.8f, 0.8f, 0.7f, 1}));
-    group->addChild(box({-1, -2, 0.5f}, {1, 1, 1}, {0.9f, 0.2f, 0.2f, 1}));
-    group->addChild(box({0.5f, -3, 1.0f}, {0.6f, 0.6f, 2}, {0.2f, 0.9f, 0.2f, 1}));
-    group->addChild(box({1.8f, -1.5f, 1.4f}, {0.5f, 0.7f, 0.4f}, {0.2f, 0.3f, 0.9f, 1}));
-    return group;
-}
-
-/// A wall that leans, so that no axis is along it.
-const osg::Vec3 Corner(-3.0f, 1.0f, 0.2f), Along(6.0f, 0.8f, 0.0f), Up(0.1f, -0.4f, 3.5f);
-
-osg::ref_ptr<osg::Geode> wall(const std::string& mirror = "mirror=1")
-{
-    osg::ref_ptr<osg::Geode> geode = quad(Corner, Along, Up, {0, 0, 0, 1});
-    geode->setName("wall");
-    if (!mirror.empty())
-        geode->addDescription(mirror);
-    return geode;
-}
-
-/// Where a mirror in the wall shows things.
-osg::ref_ptr<osg::MatrixTransform> behindWall()
-{
-    osg::Vec3d n = osg::Vec3d(Along) ^ osg::Vec3d(Up);
-    n.normalize();
-    const double d = -(n * osg::Vec3d(Corner));
-    osg::Matrixd m;
-    for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column)
-            m(row, column) -= 2.0 * n[row] * n[column];
-    m.setTrans(n * (-2.0 * d));
-    return new osg::MatrixTransform(m);
-}
-
-const unsigned char* pixel(const osg::Image& image, int x, int y)
-{
-    return image.data(unsigned(x), unsigned(y));
-}
-
-bool isAlike(const unsigned char* a, const unsigned char* b, int tolerance)
-{
-    return std::abs(a[0] - b[0]) <= tolerance && std::abs(a[1] - b[1]) <= tolerance &&
-           std::abs(a[2] - b[2]) <= tolerance;
-}
-
-/// A picture of where the wall is seen: white there, black elsewhere.
-osg::ref_ptr<osg::Image> wallMask(const support::CameraSpec& from = camera())
-{
-    osg::ref_ptr<ShadowedScene> scene = emptyScene();
-    scene->setMirrors(false);
-    osg::ref_ptr<osg::Group> dark = things();
-    dark->getOrCreateStateSet()->setAttributeAndModes(
-        new osg::Material, osg::StateAttribute::OVERRIDE | osg::StateAttribute::ON);
-    auto* black = static_cast<osg::Material*>(
-        dark->getStateSet()->getAttribute(osg::StateAttribute::MATERIAL));
-    for (auto set :
-         {&osg::Material::setDiffuse, &osg::Material::setAmbient, &osg::Material::setSpecular})
-        (black->*set)(osg::Material::FRONT_AND_BACK, osg::Vec4(0, 0, 0, 1));
-    scene->addChild(dark);
-    osg::ref_ptr<osg::Geode> white = wall("");
-    setColor(*white, {0, 0, 0, 1}, {1, 1, 1, 1});
-    scene->addChild(white);
-    return picture(*scene, from);
-}
 
 /// What a wall of mirror must look like: things as they are, and reflected where the wall is.
 osg::ref_ptr<osg::Image> throughHole(ShadowedScene& reflected, ShadowedScene& direct,
@@ -200,38 +39,7 @@ support::CompareImage offEdges()
     return {2.0 / 255.0, 0.004, 1.0};
 }
 
-osgMultiRender::Plan planOf(const ShadowedScene& scene)
-{
-    for (const osgMultiRender::Plan& plan : scene.getPlans())
-        if (plan.view.compare(0, 6, "mirror") != 0)
-            return plan;
-    return {};
-}
-
-std::string reasonOf(const ShadowedScene& scene, const std::string& subject,
-                     PlanEntry::Decision decision)
-{
-    for (const PlanEntry& entry : planOf(scene).entries)
-        if (entry.subject == subject && entry.decision == decision)
-            return entry.reason;
-    return "";
-}
-
-double passesOf(const ShadowedScene& scene)
-{
-    osgMultiRender::Plan plan = planOf(scene);
-    return plan.counts.count("mirrors.passes") ? plan.counts["mirrors.passes"] : -1.0;
-}
-
-/// A camera before a single mirror and nothing else.
-osg::ref_ptr<ShadowedScene> wallScene(const osg::ref_ptr<osg::Geode>& mirror)
-{
-    osg::ref_ptr<ShadowedScene> scene = emptyScene();
-    scene->addChild(lights());
-    scene->addChild(things());
-    scene->addChild(mirror);
-    return scene;
-}
+} // namespace
 
 TEST(MirrorsGLTest, showsWhatAHoleToAMirroredCopyShows)
 {
@@ -411,158 +219,6 @@ TEST(MirrorsGLTest, whatIsBehindAMirrorDoesNotShowInIt)
     EXPECT_EQ(wrong, 0u);
 }
 
-TEST(MirrorsGLTest, mirrorsThatDoNotShowCostNothing)
-{
-    OSGKITS_NEED_GL(viewer());
-    struct Case
-    {
-        const char* reason;
-        osg::Vec3d eye, center;
-    };
-    const osg::Vec3d middle = Corner + Along * 0.5f + Up * 0.5f;
-    for (const Case& each :
-         {Case{"it is behind the viewer", {0, -4, 2}, {0, -9, 2}},
-          Case{"it is out of view", {0, -6, 2}, {-20, -5.5, 2}},
-          Case{"it is seen edge-on", osg::Vec3d(Corner) - osg::Vec3d(Along), middle}})
-    {
-        osg::ref_ptr<ShadowedScene> scene = wallScene(wall());
-        scene->addChild(
-            box(each.center, {1, 1, 1}, {1, 1, 1, 1})); // without leaves there is no plan
-        picture(*scene, camera(each.eye, each.center));
-        EXPECT_EQ(reasonOf(*scene, "mirror 'wall'", PlanEntry::Decision::Dropped), each.reason);
-        EXPECT_EQ(passesOf(*scene), 0.0);
-        EXPECT_EQ(scene->getPlans().size(), 1u) << "a view of a mirror has been drawn";
-    }
-    osg::ref_ptr<osg::Geode> oneSided = wall();
-    oneSided->getOrCreateStateSet()->setAttributeAndModes(new osg::CullFace);
-    osg::ref_ptr<ShadowedScene> scene = wallScene(oneSided);
-    picture(*scene);
-    EXPECT_EQ(passesOf(*scene), 1.0) << "its front faces the viewer";
-    picture(*scene, camera({0, 9, 4}, {0, 0, 1}));
-    EXPECT_EQ(passesOf(*scene), 0.0) << "its back does";
-    osg::ref_ptr<ShadowedScene> without = wallScene(wall(""));
-    picture(*without);
-    EXPECT_EQ(passesOf(*without), -1.0) << "the plan of a scene without mirrors speaks of them";
-    scene = wallScene(wall());
-    scene->setMirrors(false);
-    picture(*scene);
-    EXPECT_EQ(passesOf(*scene), -1.0);
-}
-
-TEST(MirrorsGLTest, twoMirrorsThatFaceEachOtherReflectOnce)
-{
-    OSGKITS_NEED_GL(viewer());
-    const auto facing = [](const std::string& second)
-    {
-        osg::ref_ptr<ShadowedScene> scene = wallScene(wall());
-        osg::ref_ptr<osg::Geode> other =
-            quad({3, -7, 0}, {0, 7, 0}, {0, 0, 3}, {0.5f, 0.1f, 0.1f, 1});
-        other->setName("other");
-        if (!second.empty())
-            other->addDescription(second);
-        scene->addChild(other);
-        return scene;
-    };
-    const support::CameraSpec from = camera({-3, -8, 3}, {1, 0, 1.5});
-    osg::ref_ptr<ShadowedScene> both = facing("mirror=1"), one = facing("");
-    const auto actual = picture(*both, from), expected = picture(*one, from);
-    EXPECT_EQ(passesOf(*both), 2.0);
-    EXPECT_EQ(both->getPlans().size(), 3u) << "the view and one picture of each mirror";
-    // In the first mirror the second one shows its own surface, as if it were none.
-    const auto mask = wallMask(from);
-    unsigned int wrong = 0, red = 0;
-    for (int y = 0; y < Height; ++y)
-        for (int x = 0; x < Width; ++x)
-        {
-            if (pixel(*mask, x, y)[0] != 255)
-                continue;
-            // Where the other mirror stands before the wall, that one reflects.
-            const bool covered = !isAlike(pixel(*actual, x, y), pixel(*expected, x, y), 1);
-            wrong += covered;
-            const unsigned char* p = pixel(*expected, x, y);
-            red += p[0] > 2 * p[1] + 20;
-        }
-    EXPECT_GT(red, 50u) << "the second mirror is not seen in the first";
-    EXPECT_LT(wrong, 900u);
-    support::writeImage(*actual, "mirrorsFacing.actual");
-    support::writeImage(*expected, "mirrorsFacing.expected");
-}
-
-TEST(MirrorsGLTest, tilesOfOnePlaneShareAPicture)
-{
-    OSGKITS_NEED_GL(viewer());
-    osg::ref_ptr<ShadowedScene> whole = wallScene(wall());
-    osg::ref_ptr<ShadowedScene> tiled = emptyScene();
-    tiled->addChild(lights());
-    tiled->addChild(things());
-    for (int i = 0; i < 3; ++i)
-    {
-        osg::ref_ptr<osg::Geode> tile =
-            quad(Corner + Along * (float(i) / 3.0f), Along / 3.0f, Up, {0, 0, 0, 1});
-        tile->setName("mirror=1 tile " + std::to_string(i));
-        tiled->addChild(tile);
-    }
-    const auto actual = picture(*tiled), expected = picture(*whole);
-    EXPECT_TRUE(support::CompareImage()(actual, expected, "mirrorTiles"));
-    EXPECT_EQ(passesOf(*tiled), 1.0);
-    EXPECT_NE(reasonOf(*tiled, "mirror 'mirror=1 tile 2'", PlanEntry::Decision::Folded), "");
-}
-
-TEST(MirrorsGLTest, theLargestMirrorsAreDrawnUpToTheLimit)
-{
-    OSGKITS_NEED_GL(viewer());
-    osg::ref_ptr<ShadowedScene> scene = wallScene(wall());
-    osg::ref_ptr<osg::Geode> small = quad({-3.5f, -2, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0, 1});
-    small->setName("mirror_small");
-    scene->insertChild(0, small);
-    scene->setMaxMirrors(1);
-    picture(*scene);
-    EXPECT_EQ(passesOf(*scene), 1.0);
-    EXPECT_NE(reasonOf(*scene, "mirror 'wall'", PlanEntry::Decision::Drawn), "");
-    EXPECT_NE(
-        reasonOf(*scene, "mirror 'mirror_small'", PlanEntry::Decision::Dropped).find("maxmirrors"),
-        std::string::npos);
-    scene->setMaxMirrors(2);
-    picture(*scene);
-    EXPECT_EQ(passesOf(*scene), 2.0);
-}
-
-TEST(MirrorsGLTest, aCurvedMirrorWarnsOnceAndReflectsNothing)
-{
-    OSGKITS_NEED_GL(viewer());
-    support::NotifyCapture capture;
-    osg::ref_ptr<osg::Geode> ball = box({0, 0, 2}, {1, 1, 1}, {0.5f, 0.5f, 0.5f, 1});
-    ball->setName("mirror_ball");
-    osg::ref_ptr<ShadowedScene> scene = wallScene(ball);
-    picture(*scene);
-    picture(*scene);
-    EXPECT_EQ(capture.takeWarnings(),
-              support::NotifyCapture::Lines{
-                  "osgShadowVolume::ShadowedScene: mirror 'mirror_ball' is not planar, so it "
-                  "reflects nothing; a mirror has to be one flat Drawable"});
-    EXPECT_EQ(reasonOf(*scene, "mirror 'mirror_ball'", PlanEntry::Decision::Dropped),
-              "it is not planar");
-}
-
-TEST(MirrorsGLTest, trianglesWithIndicesBeyondTheVerticesAreNoPartOfAMirror)
-{
-    OSGKITS_NEED_GL(viewer());
-    osg::ref_ptr<osg::Geode> torn = wall();
-    osg::Geometry& geometry = *torn->getDrawable(0)->asGeometry();
-    // What OSG itself makes of such indices is its own affair.
-    const osg::BoundingBox box = geometry.getBoundingBox();
-    geometry.setInitialBound(box);
-    geometry.setComputeBoundingBoxCallback(new osg::Drawable::ComputeBoundingBoxCallback);
-    geometry.removePrimitiveSet(0);
-    osg::ref_ptr<osg::DrawElementsUShort> elements = new osg::DrawElementsUShort(GL_TRIANGLES);
-    for (const GLushort i : {0, 1, 2, 0, 2, 3, 0, 1, 60000})
-        elements->push_back(i);
-    geometry.addPrimitiveSet(elements);
-    osg::ref_ptr<ShadowedScene> scene = wallScene(torn);
-    picture(*scene);
-    EXPECT_EQ(passesOf(*scene), 1.0);
-}
-
 TEST(MirrorsGLTest, unlitAndVertexLitMirrorsReflect)
 {
     OSGKITS_NEED_GL(viewer());
@@ -613,5 +269,3 @@ TEST(MirrorsGLTest, severalSamplesAndThreadsGiveTheSamePicture)
                                     std::to_string(samples)));
         }
 }
-
-} // namespace
