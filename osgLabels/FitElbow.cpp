@@ -12,6 +12,7 @@ namespace
 {
 
 constexpr double Tolerance = 3e-3; ///< Of the tube's radius.
+constexpr double LeastCover = 0.7;  ///< Of the exact tube's area.
 constexpr std::size_t MostSamples = 400;
 
 struct Ring
@@ -157,6 +158,7 @@ glm::dvec2 arcOf(const Ring& ring, const glm::dmat3& frame, const std::vector<gl
 bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, const glm::dvec2& arc)
 {
     const double tolerance = 4.0 * mesh.noise + Tolerance * ring.tube;
+    double area = 0.0;
     for (const FitMesh::Facet& facet : mesh.facets)
     {
         bool onTube = true, atStart = true, atEnd = true;
@@ -180,8 +182,9 @@ bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, cons
         for (int k = 0; k != 3; ++k)
             if (glm::dot(way[k], way[(k + 1) % 3]) < 0.2 * ring.tube * ring.tube)
                 return false;
+        area += facet.area;
     }
-    return true;
+    return area > LeastCover * glm::two_pi<double>() * ring.tube * ring.radius * arc.y;
 }
 
 std::vector<glm::dvec3> sampled(const std::vector<glm::dvec3>& points)
@@ -194,10 +197,40 @@ std::vector<glm::dvec3> sampled(const std::vector<glm::dvec3>& points)
     return samples;
 }
 
-std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm::dvec3>& samples,
-                                     const glm::dvec3& axis)
+/// The ring of a bend, given the direction of its tube halfway: the tube's middle leaves that line
+/// to the side, with the square of the distance.
+std::optional<Ring> guessBend(const std::vector<glm::dvec3>& points, const glm::dvec3& along)
 {
-    auto ring = guessRing(samples, frameAround(axis));
+    const double share = 1.0 / double(points.size());
+    glm::dvec3 mean(0.0);
+    double meanSquare = 0.0;
+    for (const glm::dvec3& point : points)
+    {
+        const double t = glm::dot(point, along);
+        mean += share * point;
+        meanSquare += share * t * t;
+    }
+    glm::dvec3 side(0.0);
+    double variance = 0.0;
+    for (const glm::dvec3& point : points)
+    {
+        const double t = glm::dot(point, along);
+        side += share * (t * t - meanSquare) * (point - mean);
+        variance += share * (t * t - meanSquare) * (t * t - meanSquare);
+    }
+    side -= glm::dot(side, along) * along;
+    const double length = glm::length(side);
+    if (!(length > 1e-9))
+        return std::nullopt;
+    const double radius = 0.5 * variance / length;
+    const glm::dvec3 axis = glm::cross(along, side) / length;
+    const Extent extent(points, frameAround(axis));
+    return Ring{axis, mean + (radius / length) * side, radius, extent.half().z};
+}
+
+std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm::dvec3>& samples,
+                                     std::optional<Ring> ring)
+{
     if (!ring)
         return std::nullopt;
     for (int i = 0; i != 12; ++i)
@@ -235,7 +268,11 @@ std::optional<FittedShape> fitElbow(const FitMesh& mesh)
         return std::nullopt;
     const std::vector<glm::dvec3> samples = sampled(mesh.points);
     for (int i = 0; i != 3; ++i)
-        if (auto elbow = fitAround(mesh, samples, mesh.axes[i]))
+        if (auto elbow = fitAround(mesh, samples, guessBend(samples, mesh.axes[i])))
+            return elbow;
+    // Bends of half a circle and more come back.
+    for (int i = 0; i != 3; ++i)
+        if (auto elbow = fitAround(mesh, samples, guessRing(samples, frameAround(mesh.axes[i]))))
             return elbow;
     return std::nullopt;
 }
