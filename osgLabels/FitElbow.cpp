@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/FitMesh.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+constexpr double Tolerance = 3e-3; ///< Of the tube's radius.
+constexpr double LeastCover = 0.7;  ///< Of the exact tube's area.
+constexpr std::size_t MostSamples = 400;
+
+struct Ring
+{
+    glm::dvec3 axis, center;
+    double radius, tube;
+};
+
+/// A point by a ring: along the axis, from it, and from the tube's middle.
+struct ByRing
+{
+    ByRing(const Ring& ring, const glm::dvec3& point) : from(point - ring.center)
+    {
+        z = glm::dot(from, ring.axis);
+        const glm::dvec3 flat = from - z * ring.axis;
+        rho = std::max(glm::length(flat), 1e-300);
+        outward = flat / rho;
+        across = std::hypot(rho - ring.radius, z);
+    }
+
+    glm::dvec3 from, outward;
+    double z, rho, across;
+};
+
+/// Least squares for a circle around the points that lie at the top and bottom of the tube: they
+/// are about as far from the axis as the tube's middle.
+std::optional<Ring> guessRing(const std::vector<glm::dvec3>& points, const glm::dmat3& frame)
+{
+    const Extent extent(points, frame);
+    const double middle = extent.center().z, tube = extent.half().z;
+    double m[3][4] = {};
+    int count = 0;
+    for (const glm::dvec3& point : points)
+    {
+        const glm::dvec3 p = point * frame;
+        if (std::abs(p.z - middle) < 0.8 * tube)
+            continue;
+        const double row[4] = {2.0 * p.x, 2.0 * p.y, 1.0, p.x * p.x + p.y * p.y};
+        for (int i = 0; i != 3; ++i)
+            for (int k = 0; k != 4; ++k)
+                m[i][k] += row[i] * row[k];
+        ++count;
+    }
+    if (count < 6)
+        return std::nullopt;
+    const glm::dmat3 a(m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2],
+                       m[2][2]);
+    if (!(std::abs(glm::determinant(a)) > 1e-12))
+        return std::nullopt;
+    const glm::dvec3 x = glm::inverse(a) * glm::dvec3(m[0][3], m[1][3], m[2][3]);
+    const double squared = x.z + x.x * x.x + x.y * x.y;
+    if (!(squared > 0.0) || squared > 1e6)
+        return std::nullopt;
+    return Ring{frame[2], frame * glm::dvec3(x.x, x.y, middle), std::sqrt(squared), tube};
+}
+
+/// The rows of a least squares step: tilt of the axis, center, radius, tube.
+using Step = std::array<double, 7>;
+
+bool solve(std::array<std::array<double, 8>, 7>& m, Step& x)
+{
+    for (int i = 0; i != 7; ++i)
+    {
+        int pivot = i;
+        for (int k = i + 1; k != 7; ++k)
+            if (std::abs(m[k][i]) > std::abs(m[pivot][i]))
+                pivot = k;
+        if (!(std::abs(m[pivot][i]) > 1e-13))
+            return false;
+        std::swap(m[i], m[pivot]);
+        for (int k = i + 1; k != 7; ++k)
+            for (int j = 7; j >= i; --j)
+                m[k][j] -= m[k][i] / m[i][i] * m[i][j];
+    }
+    for (int i = 6; i >= 0; --i)
+    {
+        x[i] = m[i][7];
+        for (int k = i + 1; k != 7; ++k)
+            x[i] -= m[i][k] * x[k];
+        x[i] /= m[i][i];
+    }
+    return true;
+}
+
+/// One step of Gauss and Newton; false where there is none. Points well inside the tube belong to
+/// its flat ends and do not count.
+bool improve(Ring& ring, const std::vector<glm::dvec3>& points)
+{
+    const glm::dmat3 frame = frameAround(ring.axis);
+    std::array<std::array<double, 8>, 7> m{};
+    for (const glm::dvec3& point : points)
+    {
+        const ByRing at(ring, point);
+        if (at.across < 0.7 * ring.tube)
+            continue;
+        const double out = (at.rho - ring.radius) / at.across, up = at.z / at.across;
+        const double tilt = up * ring.radius / at.rho;
+        const glm::dvec3 away = out * at.outward + up * ring.axis;
+        const double row[8] = {tilt * glm::dot(at.from, frame[0]),
+                               tilt * glm::dot(at.from, frame[1]),
+                               -away.x,
+                               -away.y,
+                               -away.z,
+                               -out,
+                               -1.0,
+                               ring.tube - at.across};
+        for (int i = 0; i != 7; ++i)
+            for (int k = 0; k != 8; ++k)
+                m[i][k] += row[i] * row[k] / double(points.size());
+    }
+    Step x;
+    if (!solve(m, x))
+        return false;
+    ring.axis = glm::normalize(ring.axis + x[0] * frame[0] + x[1] * frame[1]);
+    ring.center += glm::dvec3(x[2], x[3], x[4]);
+    ring.radius += x[5];
+    ring.tube += x[6];
+    return ring.radius > 0.3 * ring.tube && ring.tube > 0.0 && ring.radius < 1e3;
+}
+
+/// The arc that has points: where it starts and how far it goes, in radians.
+glm::dvec2 arcOf(const Ring& ring, const glm::dmat3& frame, const std::vector<glm::dvec3>& points)
+{
+    std::vector<double> angles;
+    for (const glm::dvec3& point : points)
+    {
+        const glm::dvec3 p = (point - ring.center) * frame;
+        angles.push_back(std::atan2(p.y, p.x));
+    }
+    std::sort(angles.begin(), angles.end());
+    double widest = angles.front() + glm::two_pi<double>() - angles.back();
+    double start = angles.front();
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        if (angles[i] - angles[i - 1] > widest)
+        {
+            widest = angles[i] - angles[i - 1];
+            start = angles[i];
+        }
+    return {start, glm::two_pi<double>() - widest};
+}
+
+/// Whether every facet lies on the tube in steps that are small enough, or in a flat end.
+bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, const glm::dvec2& arc)
+{
+    const double tolerance = 4.0 * mesh.noise + Tolerance * ring.tube;
+    double area = 0.0;
+    for (const FitMesh::Facet& facet : mesh.facets)
+    {
+        bool onTube = true, atStart = true, atEnd = true;
+        glm::dvec2 way[3];
+        for (int k = 0; k != 3; ++k)
+        {
+            const glm::dvec3& point = mesh.points[facet.corners[k]];
+            const ByRing at(ring, point);
+            onTube = onTube && std::abs(at.across - ring.tube) <= tolerance;
+            way[k] = {at.rho - ring.radius, at.z};
+            const glm::dvec3 p = (point - ring.center) * frame;
+            double angle = std::atan2(p.y, p.x) - arc.x;
+            angle -= glm::two_pi<double>() * std::floor((angle + 0.1) / glm::two_pi<double>());
+            atStart = atStart && std::abs(angle) * at.rho <= tolerance;
+            atEnd = atEnd && std::abs(angle - arc.y) * at.rho <= tolerance;
+        }
+        if (atStart || atEnd)
+            continue;
+        if (!onTube)
+            return false;
+        for (int k = 0; k != 3; ++k)
+            if (glm::dot(way[k], way[(k + 1) % 3]) < 0.2 * ring.tube * ring.tube)
+                return false;
+        area += facet.area;
+    }
+    return area > LeastCover * glm::two_pi<double>() * ring.tube * ring.radius * arc.y;
+}
+
+std::vector<glm::dvec3> sampled(const std::vector<glm::dvec3>& points)
+{
+    if (points.size() <= MostSamples)
+        return points;
+    std::vector<glm::dvec3> samples;
+    for (std::size_t i = 0; i != MostSamples; ++i)
+        samples.push_back(points[i * points.size() / MostSamples]);
+    return samples;
+}
+
+/// The ring of a bend, given the direction of its tube halfway: the tube's middle leaves that line
+/// to the side, with the square of the distance.
+std::optional<Ring> guessBend(const std::vector<glm::dvec3>& points, const glm::dvec3& along)
+{
+    const double share = 1.0 / double(points.size());
+    glm::dvec3 mean(0.0);
+    double meanSquare = 0.0;
+    for (const glm::dvec3& point : points)
+    {
+        const double t = glm::dot(point, along);
+        mean += share * point;
+        meanSquare += share * t * t;
+    }
+    glm::dvec3 side(0.0);
+    double variance = 0.0;
+    for (const glm::dvec3& point : points)
+    {
+        const double t = glm::dot(point, along);
+        side += share * (t * t - meanSquare) * (point - mean);
+        variance += share * (t * t - meanSquare) * (t * t - meanSquare);
+    }
+    side -= glm::dot(side, along) * along;
+    const double length = glm::length(side);
+    if (!(length > 1e-9))
+        return std::nullopt;
+    const double radius = 0.5 * variance / length;
+    const glm::dvec3 axis = glm::cross(along, side) / length;
+    const Extent extent(points, frameAround(axis));
+    return Ring{axis, mean + (radius / length) * side, radius, extent.half().z};
+}
+
+std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm::dvec3>& samples,
+                                     std::optional<Ring> ring)
+{
+    if (!ring)
+        return std::nullopt;
+    for (int i = 0; i != 12; ++i)
+    {
+        const Ring before = *ring;
+        if (!improve(*ring, samples))
+            return std::nullopt;
+        if (glm::distance(before.center, ring->center) + std::abs(before.tube - ring->tube) < 1e-9)
+            break;
+    }
+    const double tolerance = 4.0 * mesh.noise + Tolerance * ring->tube;
+    if (ring->tube <= 20.0 * mesh.noise)
+        return std::nullopt;
+    for (const glm::dvec3& point : samples)
+    {
+        const double across = ByRing(*ring, point).across;
+        if (across > ring->tube + tolerance ||
+            (across > 0.7 * ring->tube && across < ring->tube - tolerance))
+            return std::nullopt;
+    }
+    glm::dmat3 frame = frameAround(ring->axis);
+    const glm::dvec2 arc = arcOf(*ring, frame, mesh.points);
+    if (arc.y < 0.02 || !isTube(mesh, *ring, frame, arc))
+        return std::nullopt;
+    const glm::dvec3 x = std::cos(arc.x) * frame[0] + std::sin(arc.x) * frame[1];
+    frame = {x, glm::cross(frame[2], x), frame[2]};
+    return makeShape(mesh, Shape::Torus, frame, ring->center, {ring->radius, ring->tube, arc.y});
+}
+
+} // namespace
+
+std::optional<FittedShape> fitElbow(const FitMesh& mesh)
+{
+    if (mesh.facets.size() < 10)
+        return std::nullopt;
+    const std::vector<glm::dvec3> samples = sampled(mesh.points);
+    for (int i = 0; i != 3; ++i)
+        if (auto elbow = fitAround(mesh, samples, guessBend(samples, mesh.axes[i])))
+            return elbow;
+    // Bends of half a circle and more come back.
+    for (int i = 0; i != 3; ++i)
+        if (auto elbow = fitAround(mesh, samples, guessRing(samples, frameAround(mesh.axes[i]))))
+            return elbow;
+    return std::nullopt;
+}
+
+} // namespace osgLabels
