@@ -4,14 +4,15 @@
 namespace osgLabels
 {
 
-/// Texture units of osgLabels while leaves are drawn. A model has 0 to 3, osgShadowVolume 9 to 15.
+/// Texture units of osgLabels while leaves are drawn. A model has 0 to 3, osgShadowVolume 9 and
+/// 12 to 15 then; it uses 10 and 11 before.
 enum LabelUnits
 {
     RowsUnit = 4,
     TextsUnit = 5,
     RecordsUnit = 6, ///< Object records.
-    GlyphsUnit = 7,
-    StylesUnit = 8
+    GlyphsUnit = 7,    ///< And the next one.
+    StylesUnit = 10
 };
 
 } // namespace osgLabels

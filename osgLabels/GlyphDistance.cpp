@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/GlyphImages.h>
+#include <osgLabels/InkSpans.h>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+/// Calls visit(a, b) for each side of the outline that has length.
+template <typename Visit> void forSides(const GlyphOutline& outline, const Visit& visit)
+{
+    for (const std::vector<glm::vec2>& contour : outline.contours)
+        for (std::size_t i = 0; i < contour.size(); ++i)
+        {
+            const glm::vec2 &a = contour[i], &b = contour[(i + 1) % contour.size()];
+            if (a != b)
+                visit(a, b);
+        }
+}
+
+/// Whether ink ends at the side. It does not where contours overlap, as those of composed letters
+/// may.
+bool isBorder(const InkSpans& ink, const glm::vec2& a, const glm::vec2& b)
+{
+    const glm::vec2 middle = 0.5f * (a + b), along = b - a;
+    const float step = 2.0f / static_cast<float>(ink.getRowsPerEm());
+    const glm::vec2 across = step * glm::normalize(glm::vec2(-along.y, along.x));
+    return ink.contains(middle.x + across.x, middle.y + across.y) !=
+           ink.contains(middle.x - across.x, middle.y - across.y);
+}
+
+float getDistanceToSide(const glm::vec2& point, const glm::vec2& a, const glm::vec2& b)
+{
+    const glm::vec2 along = b - a;
+    const float t = glm::clamp(glm::dot(point - a, along) / glm::dot(along, along), 0.0f, 1.0f);
+    return glm::distance(point, a + t * along);
+}
+
+double getSignedArea(const GlyphOutline& outline)
+{
+    double area = 0.0;
+    forSides(outline, [&area](const glm::vec2& a, const glm::vec2& b)
+             { area += static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x; });
+    return 0.5 * area;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> GlyphImages::makeDistance(std::uint32_t code, int image) const
+{
+    const GlyphOutline outline = getOutline(code, image);
+    const InkSpans ink(outline, 4096);
+    const ImageRectangle& rectangle = _distance;
+    std::vector<float> distances(getDistanceBytes(), DistanceSpread);
+    const auto toTexel = [&](float em, float offset) { return em * rectangle.scale + offset; };
+    forSides(outline,
+             [&](const glm::vec2& a, const glm::vec2& b)
+             {
+                 if (!isBorder(ink, a, b))
+                     return;
+                 const glm::vec2 low = glm::min(a, b) - DistanceSpread,
+                                 high = glm::max(a, b) + DistanceSpread;
+                 const int left = std::max(0, static_cast<int>(toTexel(low.x, rectangle.offset.x))),
+                           right = std::min(rectangle.width - 1,
+                                            static_cast<int>(toTexel(high.x, rectangle.offset.x))),
+                           bottom =
+                               std::max(0, static_cast<int>(toTexel(low.y, rectangle.offset.y))),
+                           top = std::min(rectangle.height - 1,
+                                          static_cast<int>(toTexel(high.y, rectangle.offset.y)));
+                 for (int y = bottom; y <= top; ++y)
+                     for (int x = left; x <= right; ++x)
+                     {
+                         const glm::vec2 place =
+                             (glm::vec2(x, y) + 0.5f - rectangle.offset) / rectangle.scale;
+                         float& distance =
+                             distances[static_cast<std::size_t>(y * rectangle.width + x)];
+                         distance = std::min(distance, getDistanceToSide(place, a, b));
+                     }
+             });
+    std::vector<std::uint8_t> pixels(distances.size());
+    for (int y = 0; y < rectangle.height; ++y)
+        for (int x = 0; x < rectangle.width; ++x)
+        {
+            const auto i = static_cast<std::size_t>(y * rectangle.width + x);
+            const glm::vec2 place = (glm::vec2(x, y) + 0.5f - rectangle.offset) / rectangle.scale;
+            const float share = distances[i] / DistanceSpread;
+            const float inside = ink.contains(place.x, place.y) ? share : -share;
+            pixels[i] = static_cast<std::uint8_t>(std::lrint(127.5f + 127.5f * inside));
+        }
+    return pixels;
+}
+
+GlyphOutline grow(const GlyphOutline& outline, float width)
+{
+    GlyphOutline grown = outline;
+    if (!(width > 0.0f))
+        return grown;
+    // What is added winds as the ink does: against it, it would be taken away.
+    const float sense = getSignedArea(outline) < 0.0 ? -1.0f : 1.0f;
+    constexpr int Sides = 16;
+    forSides(outline,
+             [&](const glm::vec2& a, const glm::vec2& b)
+             {
+                 const glm::vec2 along = b - a;
+                 const glm::vec2 across =
+                     sense * width * glm::normalize(glm::vec2(along.y, -along.x));
+                 grown.contours.push_back({a + across, b + across, b - across, a - across});
+                 std::vector<glm::vec2> round;
+                 for (int i = 0; i < Sides; ++i)
+                 {
+                     const float angle = sense * 6.2831853f * static_cast<float>(i) / Sides;
+                     round.push_back(a + width * glm::vec2(std::cos(angle), std::sin(angle)));
+                 }
+                 grown.contours.push_back(std::move(round));
+             });
+    return grown;
+}
+
+} // namespace osgLabels
