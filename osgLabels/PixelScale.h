@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osg/Matrixd>
+#include <osg/RenderInfo>
+
+namespace osgLabels
+{
+
+/// How many pixels a length of a drawable's local coordinates has in the view that is drawn.
+class PixelScale
+{
+public:
+    /// Of the matrices and the viewport that are applied. The small-feature rule is the camera's.
+    explicit PixelScale(osg::RenderInfo& renderInfo);
+
+    /// Pixels a unit at eye depth z, where that is -1 one before the eye. Infinite at the eye and
+    /// behind it in perspective.
+    double at(double z) const;
+    /// Eye depth of a local point.
+    double depthOf(const osg::Vec3d& point) const { return point * _depth + _depthOffset; }
+    /// Eye units a local unit, along the axis where that is most.
+    double eyeScale() const { return _eyeScale; }
+    /// Whether all of a sphere, in local coordinates, lies behind the eye.
+    bool isBehind(double z, double radius) const
+    {
+        return _perZ < 0.0 && z - radius * _eyeScale > 0.0;
+    }
+    /// The eye in local coordinates is so close to the sphere that its parts differ much in size.
+    bool isNear(const osg::Vec3d& center, double radius) const;
+    /// Objects of a smaller radius, in pixels, are not drawn; OSG's small-feature rule.
+    double getSmallest() const { return _smallest; }
+
+private:
+    osg::Matrixd _modelView;
+    osg::Vec3d _depth;
+    double _depthOffset, _eyeScale, _pixels, _perZ, _atZero, _smallest = 0.0;
+};
+
+} // namespace osgLabels

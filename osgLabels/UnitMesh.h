@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/PrimitiveShape.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace osgLabels
+{
+
+/// The mesh of a shape before placePoint() gives it its size. Free of OSG.
+struct UnitMesh
+{
+    std::vector<SurfacePoint> points;
+    std::vector<std::uint16_t> triangles; ///< Counterclockwise from outside.
+};
+
+/// Sides of a circle, level by level; the first is the finest.
+constexpr int LevelSides[] = {96, 48, 24, 12, 6};
+constexpr int NumLevels = sizeof LevelSides / sizeof *LevelSides;
+/// What other visitors than cull see: intersections, shadows, statistics.
+constexpr int VisitorLevel = 2;
+
+/// The mesh of `shape` with `sides` sides around; flat-faced shapes have one mesh. Closed, but for
+/// the quad. Empty for what isPrimitive() refuses.
+OSGLABELS_EXPORT UnitMesh makeUnitMesh(Shape shape, int sides);
+
+/// Levels that differ: 1 for shapes with flat faces only.
+OSGLABELS_EXPORT int levelsOf(Shape shape);
+
+/// The coarsest level whose polygon stays within half a pixel of a circle of this radius in
+/// pixels.
+OSGLABELS_EXPORT int levelFor(float radiusPixels);
+
+} // namespace osgLabels

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/PrimitiveBatch.h>
+
+#include <osg/Endian>
+#include <osgDB/InputStream>
+#include <osgDB/ObjectWrapper>
+#include <osgDB/OutputStream>
+#include <osgDB/Serializer>
+
+#include <cstdlib>
+#include <limits>
+
+namespace
+{
+
+using osgLabels::PrimitiveBatch;
+using osgLabels::RecordPage;
+
+// Binary files hold the arrays as they lie in memory, text files one object after the other.
+
+void writeWords(osgDB::OutputStream& os, const void* words, std::size_t count)
+{
+    os.writeCharArray(static_cast<const char*>(words), static_cast<unsigned int>(4 * count));
+}
+
+/// In pieces, so that a wrong count in a file ends at the file's end and not in the allocator.
+template <class Word>
+bool readWords(osgDB::InputStream& is, std::vector<Word>& words, std::size_t count)
+{
+    constexpr std::size_t piece = 1 << 20;
+    while (words.size() < count && !is.getException() && !is.getInputIterator()->isFailed())
+    {
+        const std::size_t first = words.size(), size = std::min(piece, count - first);
+        words.resize(first + size);
+        is.readCharArray(reinterpret_cast<char*>(&words[first]),
+                         static_cast<unsigned int>(sizeof(Word) * size));
+    }
+    return words.size() == count && !is.getInputIterator()->isFailed();
+}
+
+template <class Word> void swapWords(const osgDB::InputStream& is, Word* words, std::size_t count)
+{
+    if (!is.getInputIterator()->getByteSwap())
+        return;
+    for (std::size_t i = 0; i < count; ++i)
+        osg::swapBytes(reinterpret_cast<char*>(words + i), sizeof(Word));
+}
+
+void fail(osgDB::InputStream& is, PrimitiveBatch& batch, const std::string& cause)
+{
+    batch.clear();
+    is.throwException("osgLabels::PrimitiveBatch: " + cause);
+}
+
+void writeBinary(osgDB::OutputStream& os, const PrimitiveBatch& batch)
+{
+    const PrimitiveBatch::Content content = batch.getContent();
+    os << static_cast<unsigned int>(content.pages.size());
+    for (const osg::ref_ptr<RecordPage>& page : content.pages)
+    {
+        os << page->size();
+        writeWords(os, page->getRecords().getDataPointer(), page->getRecords().size());
+        writeWords(os, page->getColors().getDataPointer(), page->getColors().size());
+    }
+    os << static_cast<unsigned int>(content.cells.size());
+    for (const PrimitiveBatch::Cell& cell : content.cells)
+        os << cell.center << cell.firstObject;
+    os << static_cast<unsigned int>(content.runs.size());
+    for (const PrimitiveBatch::Run& run : content.runs)
+        os << run.cell << run.count << run.transparent;
+    const osgLabels::NameList& names = content.names;
+    os << static_cast<unsigned int>(names.block().size());
+    os.writeCharArray(names.block().data(), static_cast<unsigned int>(names.block().size()));
+    writeWords(os, names.ends().data(), names.ends().size());
+}
+
+osg::ref_ptr<RecordPage> readPage(osgDB::InputStream& is)
+{
+    unsigned int size = 0;
+    is >> size;
+    if (size == 0 || size > RecordPage::MaxObjects)
+        return nullptr;
+    osg::ref_ptr<osg::UIntArray> records = new osg::UIntArray;
+    osg::ref_ptr<osg::Vec4ubArray> colors = new osg::Vec4ubArray;
+    const bool read =
+        readWords(is, records->asVector(), osgLabels::ObjectRecord::Words * size) &&
+        readWords(is, colors->asVector(), size);
+    if (!read)
+        return nullptr;
+    swapWords(is, &records->front(), records->size());
+    osg::ref_ptr<RecordPage> page = new RecordPage(records, colors);
+    for (unsigned int i = 0; i < size; ++i)
+        page->setIdentifier(i, 0);
+    return page;
+}
+
+std::string readContent(osgDB::InputStream& is, PrimitiveBatch::Content& content)
+{
+    unsigned int pages = 0, cells = 0, runs = 0, bytes = 0;
+    std::size_t objects = 0;
+    is >> pages;
+    for (unsigned int i = 0; i < pages; ++i)
+    {
+        content.pages.push_back(readPage(is));
+        if (!content.pages.back())
+            return "a page of objects is cut off or has a wrong size";
+        objects += content.pages.back()->size();
+    }
+    is >> cells;
+    if (cells > objects)
+        return "more cells than objects";
+    content.cells.resize(cells);
+    for (PrimitiveBatch::Cell& cell : content.cells)
+        is >> cell.center >> cell.firstObject;
+    is >> runs;
+    if (runs > objects)
+        return "more runs than objects";
+    content.runs.resize(runs);
+    for (PrimitiveBatch::Run& run : content.runs)
+        is >> run.cell >> run.count >> run.transparent;
+    is >> bytes;
+    std::vector<char> block;
+    std::vector<std::uint32_t> ends;
+    if (!readWords(is, block, bytes) || !readWords(is, ends, objects))
+        return "its names are cut off";
+    swapWords(is, ends.data(), ends.size());
+    if (!content.names.assign(std::string(block.begin(), block.end()), std::move(ends)))
+        return "its names don't fit their lengths";
+    return {};
+}
+
+void writeText(osgDB::OutputStream& os, const PrimitiveBatch& batch)
+{
+    for (unsigned int i = 0; i < batch.getNumObjects(); ++i)
+    {
+        const osgLabels::Primitive primitive = batch.getPrimitive(i);
+        const osg::Vec4ub& color = primitive.color;
+        os << static_cast<unsigned int>(primitive.shape) << primitive.size << primitive.position
+           << primitive.rotation << static_cast<unsigned int>(color.r())
+           << static_cast<unsigned int>(color.g()) << static_cast<unsigned int>(color.b())
+           << static_cast<unsigned int>(color.a());
+        os.writeWrappedString(primitive.name);
+        os << std::endl;
+    }
+}
+
+std::string readText(osgDB::InputStream& is, PrimitiveBatch& batch, unsigned int objects)
+{
+    for (unsigned int i = 0; i < objects; ++i)
+    {
+        osgLabels::Primitive primitive;
+        unsigned int shape = 0, color[4] = {};
+        is >> shape >> primitive.size >> primitive.position >> primitive.rotation;
+        for (unsigned int& channel : color)
+            is >> channel;
+        is.readWrappedString(primitive.name);
+        if (is.getException() || is.getInputIterator()->isFailed())
+            return "object " + std::to_string(i) + " is cut off";
+        primitive.shape = osgLabels::Shape(shape);
+        primitive.color.set(static_cast<unsigned char>(color[0]),
+                            static_cast<unsigned char>(color[1]),
+                            static_cast<unsigned char>(color[2]),
+                            static_cast<unsigned char>(color[3]));
+        if (!batch.add(primitive))
+            return "object " + std::to_string(i) + " can't be drawn";
+    }
+    batch.build();
+    return {};
+}
+
+bool checkObjects(const PrimitiveBatch& batch)
+{
+    return batch.getNumObjects() > 0;
+}
+
+bool writeObjects(osgDB::OutputStream& os, const PrimitiveBatch& batch)
+{
+    os << batch.getNumObjects() << os.BEGIN_BRACKET << std::endl;
+    if (os.isBinary())
+        writeBinary(os, batch);
+    else
+        writeText(os, batch);
+    os << os.END_BRACKET << std::endl;
+    return true;
+}
+
+bool readObjects(osgDB::InputStream& is, PrimitiveBatch& batch)
+{
+    unsigned int objects = 0;
+    is >> objects >> is.BEGIN_BRACKET;
+    std::string fault;
+    if (is.isBinary())
+    {
+        PrimitiveBatch::Content content;
+        fault = readContent(is, content);
+        if (fault.empty())
+            fault = batch.setContent(std::move(content));
+        if (fault.empty() && batch.getNumObjects() != objects)
+            fault = "says " + std::to_string(objects) + " objects, has " +
+                    std::to_string(batch.getNumObjects());
+    }
+    else
+    {
+        fault = readText(is, batch, objects);
+    }
+    if (!fault.empty())
+    {
+        fail(is, batch, fault);
+        return false;
+    }
+    is >> is.END_BRACKET;
+    return true;
+}
+
+} // namespace
+
+// Not a Group in files: the children are made of the objects.
+REGISTER_OBJECT_WRAPPER(osgLabels_PrimitiveBatch, new osgLabels::PrimitiveBatch,
+                        osgLabels::PrimitiveBatch,
+                        "osg::Object osg::Node osgLabels::PrimitiveBatch")
+{
+    ADD_UINT_SERIALIZER(CellObjects, 0);
+    ADD_INT_SERIALIZER(Level, -1);
+    ADD_USER_SERIALIZER(Objects);
+}
