@@ -77,15 +77,12 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 
 } // namespace
 
-LabelPass::LabelPass(const LabelScene& scene)
-    : _resources(scene.getResources()), _settings(scene.getSettings())
-{
-}
+LabelPass::LabelPass(const LabelScene& scene) : _resources(scene.getResources()) {}
 
 LabelPass::~LabelPass()
 {
     if (_targets)
-        _resources.targets.release(_contextID, _targets);
+        _resources->targets.release(_contextID, _targets);
 }
 
 void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
@@ -93,9 +90,11 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     osg::State& state = *renderInfo.getState();
     _contextID = state.getContextID();
     frame.forEachLeaf(*this, [this](const osgUtil::RenderLeaf& leaf, bool)
-                      { _labelled += _resources.objects.indexOf(leaf) != 0; });
+                      { _labelled += _resources->objects.indexOf(leaf) != 0; });
     _target = osgMultiRender::DrawTarget::current(state);
-    if (_labelled == 0)
+    if (!_resources->glyphs)
+        _reason = "there is no font";
+    else if (_labelled == 0)
         _reason = "nothing labelled is in view";
     else if (_target.several)
         _reason = "the view writes several color buffers";
@@ -103,32 +102,31 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
         return;
     const auto* gl = state.get<osg::GLExtensions>();
     _languageVersion = gl->glslLanguageVersion;
-    _isPaged = _resources.buffers.isPaged(state);
+    _isPaged = _resources->buffers.isPaged(state);
     glGetIntegerv(GL_VIEWPORT, _viewport);
     const osg::Matrixd* view =
         const_cast<osgUtil::RenderStage&>(frame.getStage()).getInitialViewMatrix();
-    const osg::Vec3d up = axisOf(_settings.up);
+    const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
-    _isParallel = isParallel(state.getProjectionMatrix());
     makeUnder(state);
 }
 
 void LabelPass::makeUnder(osg::State& state)
 {
     _under = new osg::StateSet;
-    _under->merge(*_resources.buffers.update(state));
-    _under->merge(*_resources.objects.update(state));
+    _resources->update(state, *_under);
     const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, Over); };
     add(new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
                                                          2.0f / float(std::max(1, _viewport[2])),
                                                          2.0f / float(std::max(1, _viewport[3])))));
-    add(new osg::Uniform("osgLabels_depth", _isParallel ? osg::Vec2(-1.0f, 2.0f) : osg::Vec2()));
-    add(new osg::Uniform("osgLabels_layoutOfText", osg::Vec2(_settings.size, _settings.gap)));
+    add(new osg::Uniform("osgLabels_layoutOfText",
+                         osg::Vec2(_resources->settings.size, _resources->settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
                                                         3 * int(LabelStyle::MaxStyles));
     for (unsigned int i = 0; i < LabelStyle::MaxStyles; ++i)
     {
-        const LabelStyle& style = _settings.styles[i < _settings.styles.size() ? i : 0];
+        const LabelStyle& style =
+            _resources->settings.styles[i < _resources->settings.styles.size() ? i : 0];
         looks->setElement(3 * i, style.ink);
         looks->setElement(3 * i + 1, style.plate);
         looks->setElement(3 * i + 2, osg::Vec4(style.outline, style.outlineWidth));
@@ -141,7 +139,7 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
 {
     if (!_reason.empty())
         return;
-    number = _resources.objects.indexOf(leaf);
+    number = _resources->objects.indexOf(leaf);
     // What has no program of ours could not say that nothing is written on it.
     if (!ordered && state.isOpaque())
         key.output = Diverted;
@@ -218,14 +216,15 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     const osg::Matrixd projection =
         leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd();
     // Clip coordinates x, y and w, or z where rays are parallel, of eye coordinates.
-    const int columns[3] = {0, 1, _isParallel ? 2 : 3};
+    const bool parallel = isParallel(projection);
+    const int columns[3] = {0, 1, parallel ? 2 : 3};
     osg::Matrixd clip;
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
             clip(i, j) = projection(i, columns[j]);
     const osg::Matrixd toLocal = osg::Matrixd::inverse(modelview);
     const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
-    osg::Vec3d rows[9];
+    osg::Vec3d rows[10];
     for (int i = 0; i < 3; ++i)
         rows[i] = rotated(osg::Vec3d(toEye(i, 0), toEye(i, 1), toEye(i, 2)), toLocal);
     rows[3] = rotated(toEye.getTrans(), toLocal);
@@ -234,8 +233,9 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     rows[6] = rotated({0.0, 1.0, 0.0}, toLocal);
     rows[7] = rotated({0.0, 0.0, 1.0}, toLocal);
     rows[8] = rotated(_up, toLocal);
+    rows[9] = parallel ? osg::Vec3d(-1.0, 2.0, 0.0) : osg::Vec3d();
     Frame frame{};
-    for (int i = 0; i < 9; ++i)
+    for (int i = 0; i < 10; ++i)
         for (int j = 0; j < 3; ++j)
             frame[3 * i + j] = std::isfinite(rows[i][j]) ? float(rows[i][j]) : 0.0f;
     return frame;
@@ -262,7 +262,7 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
         applied.projection == leaf._projection.get())
         return;
     applied = {leaf._modelview.get(), leaf._projection.get(), true};
-    gl->glUniform3fv(program.getUniformLocation(frameName), 9, frameOf(leaf).data());
+    gl->glUniform3fv(program.getUniformLocation(frameName), 10, frameOf(leaf).data());
 }
 
 bool LabelPass::diverts(const SurfaceItem& item) const
@@ -274,7 +274,7 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
 {
     osg::State& state = *renderInfo.getState();
     if (!_targets)
-        _targets = _resources.targets.acquire(
+        _targets = _resources->targets.acquire(
             _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
     {
         osgMultiRender::FramebufferVisit visit(state);
@@ -313,7 +313,7 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     osg::State& state = *renderInfo.getState();
     const int samples = _target.samples;
     osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
-        *_resources.programs.getComposite(_languageVersion, samples, _isPaged, _target.hasDepth));
+        *_resources->programs.getComposite(_languageVersion, samples, _isPaged, _target.hasDepth));
     pass->merge(*_targets->getStateSet());
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));
@@ -335,7 +335,7 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
             glEnable(sampleMask);
             gl->glSampleMaski(0, 1u << i);
         }
-        _resources.screen->draw(renderInfo);
+        _resources->screen->draw(renderInfo);
     }
     if (samples > 1)
     {

@@ -53,7 +53,7 @@ public:
 
 private:
     /// osgLabels_frame of target.frag.
-    using Frame = std::array<float, 27>;
+    using Frame = std::array<float, 30>;
     struct Applied
     {
         const osg::RefMatrix* modelview = nullptr;
@@ -66,13 +66,11 @@ private:
     void composite(osg::RenderInfo& renderInfo);
     void makeUnder(osg::State& state);
 
-    LabelResources& _resources;
-    const LabelSettings _settings;
+    const std::shared_ptr<LabelResources> _resources;
     std::string _reason; ///< Why there are no labels in this view; empty where there are.
     unsigned int _contextID = 0;
     float _languageVersion = 3.3f;
     bool _isPaged = false;
-    bool _isParallel = false; ///< An orthographic view.
     GLint _viewport[4] = {};
     osgMultiRender::DrawTarget _target;
     osg::Vec3d _up; ///< Of the world, in eye coordinates.

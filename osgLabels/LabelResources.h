@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/GlyphAtlas.h>
+#include <osgLabels/GlyphSet.h>
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/LabelObjects.h>
 #include <osgLabels/LabelPrograms.h>
+#include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTable.h>
 #include <osgLabels/LabelTargets.h>
 
@@ -13,24 +16,32 @@
 namespace osgLabels
 {
 
-/// What a LabelScene keeps from frame to frame for all its views. Thread safe.
-struct LabelResources
+/// What a LabelScene with certain settings keeps from frame to frame for all its views. Thread
+/// safe.
+class LabelResources
 {
-    std::shared_ptr<LabelTable> table = std::make_shared<LabelTable>();
+public:
+    explicit LabelResources(const LabelSettings& settings);
+
+    /// False without a font, or for an identifier out of range.
+    bool setText(std::uint32_t identifier, const std::string& text);
+    /// Texts, glyphs and records on the GPU, as they are now; for the current context.
+    void update(osg::State& state, osg::StateSet& into);
+
+    void releaseGLObjects(osg::State* state);
+
+    const LabelSettings settings;
+    const std::shared_ptr<GlyphSet> glyphs; ///< Null without any font.
+    const std::shared_ptr<LabelTable> table = std::make_shared<LabelTable>();
     LabelBuffers buffers{table};
     LabelObjects objects;
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;
-    osg::ref_ptr<osg::Geometry> screen = osgMultiRender::makeScreenTriangle();
+    const osg::ref_ptr<osg::Geometry> screen = osgMultiRender::makeScreenTriangle();
 
-    void releaseGLObjects(osg::State* state)
-    {
-        buffers.releaseGLObjects(state);
-        objects.releaseGLObjects(state);
-        targets.releaseGLObjects(state);
-        programs.releaseGLObjects(state);
-        screen->releaseGLObjects(state);
-    }
+private:
+    std::mutex _atlasMutex;
+    const osg::ref_ptr<GlyphAtlas> _atlas;
 };
 
 } // namespace osgLabels

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelScene.h>
 
+#include <osgLabels/DrawableFit.h>
+#include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelPass.h>
 #include <osgLabels/LabelResources.h>
+
+#include <osg/Notify>
 
 namespace osgLabels
 {
 
-LabelScene::LabelScene() : _resources(std::make_unique<LabelResources>()) {}
+LabelScene::LabelScene() = default;
 
 LabelScene::LabelScene(const LabelScene& other, const osg::CopyOp& copyop)
-    : osgMultiRender::SurfaceGroup(other, copyop), _settings(other._settings),
-      _resources(std::make_unique<LabelResources>())
+    : osgMultiRender::SurfaceGroup(other, copyop), _settings(other._settings)
 {
 }
 
@@ -19,13 +22,27 @@ LabelScene::~LabelScene() = default;
 
 bool LabelScene::setText(std::uint32_t identifier, const std::string& text)
 {
-    LabelTable::Codes codes(text.begin(), text.end());
-    return _resources->table->setCodes(identifier, codes);
+    return _resources && _resources->setText(identifier, text);
 }
 
 void LabelScene::setSettings(const LabelSettings& settings)
 {
     _settings = settings;
+    _resources.reset();
+}
+
+void LabelScene::setSettingsText(const std::string& text)
+{
+    LabelSettings settings;
+    std::string error;
+    if (!parseLabelOptions(settings, text, error))
+        OSG_WARN << "osgLabels::LabelScene: " << error << "; the defaults count" << std::endl;
+    setSettings(settings);
+}
+
+std::string LabelScene::getSettingsText() const
+{
+    return formatLabelOptions(_settings);
 }
 
 namespace
@@ -36,17 +53,13 @@ public:
     Interim(LabelScene& s) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), scene(s) {}
     void apply(osg::Drawable& drawable) override
     {
-        const osg::BoundingBox b = drawable.getBoundingBox();
-        ObjectRecord r;
-        r.origin = {b.center().x(), b.center().y(), b.center().z()};
-        r.size = 0.5f * glm::vec3(b.xMax() - b.xMin(), b.yMax() - b.yMin(), b.zMax() - b.zMin());
-        r.shape = 1;
+        ObjectRecord r = fitDrawable(drawable).record(last + 1);
         std::string name;
         for (auto i = getNodePath().rbegin(); i != getNodePath().rend() && name.empty(); ++i)
             name = (*i)->getName();
         r.identifier = ++last;
         scene.setText(last, name.empty() ? "unnamed" : name);
-        scene.getResources().objects.add(drawable, r);
+        scene.getResources()->objects.add(drawable, r);
     }
     LabelScene& scene;
     std::uint32_t last = 0;
@@ -55,10 +68,9 @@ public:
 
 void LabelScene::traverse(osg::NodeVisitor& visitor)
 {
-    static bool once = false;
-    if (!once && visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
+    if (!_resources && visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
     {
-        once = true;
+        _resources = std::make_shared<LabelResources>(_settings);
         Interim i(*this);
         for (unsigned int c = 0; c < getNumChildren(); ++c)
             getChild(c)->accept(i);
@@ -69,7 +81,8 @@ void LabelScene::traverse(osg::NodeVisitor& visitor)
 void LabelScene::releaseGLObjects(osg::State* state) const
 {
     osgMultiRender::SurfaceGroup::releaseGLObjects(state);
-    _resources->releaseGLObjects(state);
+    if (_resources)
+        _resources->releaseGLObjects(state);
 }
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const

@@ -12,7 +12,7 @@
 namespace osgLabels
 {
 
-struct LabelResources;
+class LabelResources;
 
 /// A scene with text on the surfaces of its objects.
 ///
@@ -33,14 +33,18 @@ public:
     /// shows it. UTF-8; an empty text is none. False for an identifier that no object has.
     bool setText(std::uint32_t identifier, const std::string& text);
 
+    /// Counts from the next traversal on; not while one runs. Labels are collected anew.
     void setSettings(const LabelSettings& settings);
     const LabelSettings& getSettings() const { return _settings; }
+    /// As text, see parseLabelOptions(): all that differ from the defaults.
+    void setSettingsText(const std::string& text);
+    std::string getSettingsText() const;
 
     void traverse(osg::NodeVisitor& visitor) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
     /// What views share; for the passes.
-    LabelResources& getResources() const { return *_resources; }
+    const std::shared_ptr<LabelResources>& getResources() const { return _resources; }
 
 protected:
     ~LabelScene() override;
@@ -49,7 +53,7 @@ protected:
 
 private:
     LabelSettings _settings;
-    std::unique_ptr<LabelResources> _resources;
+    std::shared_ptr<LabelResources> _resources; ///< Null before the first traversal.
 };
 
 } // namespace osgLabels

@@ -4,10 +4,10 @@
 // OSGLABELS_OBJECT is the index of the object's record.
 
 uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
-uniform vec2 osgLabels_depth;    // ndc.z at depth 0 and its growth where rays are parallel, else 0
 // Local coordinates: what (ndc.x w, ndc.y w, w or ndc.z) weigh and what is added, relative to the
-// eye; the eye; then the view's right, up and back, and the world's up.
-uniform vec3 osgLabels_frame[9];
+// eye; the eye; the view's right, up and back; the world's up; ndc.z at depth 0 and its growth where
+// rays are parallel, else 0.
+uniform vec3 osgLabels_frame[10];
 uniform vec2 osgLabels_layoutOfText; // height as a share of the room, least gap in em
 uniform usamplerBuffer osgLabels_objects;
 
@@ -25,9 +25,9 @@ uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprin
 {
     float w = 1.0 / gl_FragCoord.w;
     vec2 ndc = (gl_FragCoord.xy - osgLabels_viewport.xy) * osgLabels_viewport.zw - 1.0;
-    bool parallel = osgLabels_depth.y != 0.0;
-    vec3 clip =
-        vec3(ndc * w, parallel ? osgLabels_depth.x + osgLabels_depth.y * gl_FragCoord.z : w);
+    vec2 depth = osgLabels_frame[9].xy;
+    bool parallel = depth.y != 0.0;
+    vec3 clip = vec3(ndc * w, parallel ? depth.x + depth.y * gl_FragCoord.z : w);
     vec3 position = osgLabels_frame[0] * clip.x + osgLabels_frame[1] * clip.y +
                     osgLabels_frame[2] * clip.z + osgLabels_frame[3];
     vec3 dx = dFdx(position);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelScene.h>
 #include <osgMultiRender/PseudoLoader.h>
 
@@ -11,17 +12,29 @@ public:
     ReaderWriterLabels()
         : PseudoLoader("labels", "Text on the surfaces of objects: model.ext.[(settings).]labels")
     {
+        const osgLabels::LabelSettings defaults;
+        for (const osgLabels::LabelOption& option : osgLabels::labelOptions())
+        {
+            const std::string value = option.format(defaults);
+            supportsOption("labels." + option.name + "=" + option.values,
+                           option.help + (value.empty() ? "" : " (default " + value + ")"));
+        }
     }
 
     const char* className() const override { return "osgLabels pseudo-loader"; }
 
 protected:
-    osg::ref_ptr<osg::Node> wrap(osg::Node& model, const osgMultiRender::Settings&,
-                                 std::string&) const override
+    osg::ref_ptr<osg::Node> wrap(osg::Node& model, const osgMultiRender::Settings& settings,
+                                 std::string& error) const override
     {
+        osgLabels::LabelSettings parsed;
+        for (const auto& [name, value] : settings)
+            if (!setLabelOption(parsed, name, value, error))
+                return nullptr;
         osg::ref_ptr<osgLabels::LabelScene> scene = new osgLabels::LabelScene;
         // The viewer's optimizer must not remove or merge the group.
         scene->setDataVariance(osg::Object::DYNAMIC);
+        scene->setSettings(parsed);
         scene->addChild(&model);
         return scene;
     }
