@@ -153,6 +153,32 @@ TEST_F(ShadowExtremeGLTest, cameraInsideAVolume)
                  "insideVolumes");
 }
 
+/// The rays of an orthographic view never leave a volume that opens towards them: its far end
+/// decides, however near the light is to the caster.
+TEST_F(ShadowExtremeGLTest, orthographicViewsFromInsideAVolume)
+{
+    ExtremeMesh mesh;
+    mesh.plate(0.9f, 1.5f);
+    mesh.quad({-0.9f, -1.4f, 1.2f}, {1.1f, -1.2f, 1.3f}, {1.0f, 1.3f, 1.9f}, {-1.2f, 0.8f, 1.7f});
+    for (float height : {4.1f, 2.0f, 1.51f})
+    {
+        const osg::ref_ptr<osg::Group> scene =
+            sceneOf(*mesh.createNode(), {0.21f, -0.13f, height, 1.0f});
+        for (int i = 0; i < 6; ++i)
+        {
+            const osg::Vec3d eye(0.1, 0.05, 1.1);
+            const osg::Vec3d way(0.3 * std::sin(1.1 * i), 0.3 * std::cos(1.7 * i), -1.0);
+            CameraSpec camera =
+                CameraSpec::perspective(eye, eye + way, {0.1, 1.0, 0.2}, 40.0, Aspect, 0.1, 10.0);
+            camera.projection = osg::Matrixd::ortho(-1.2, 1.2, -0.9, 0.9, 0.0, 4.0);
+            expectNoLeak(*scene, camera,
+                         "insideOrthographic" + std::to_string(int(height * 100.0f)) + "." +
+                             std::to_string(i),
+                         false);
+        }
+    }
+}
+
 TEST_F(ShadowExtremeGLTest, cameraAtTheLightSeesNoShadow)
 {
     expectNoLeak(theBox(), {2.6f, -6.4f, 4.9f, 1.0f}, "atTheLight", false);

@@ -209,23 +209,33 @@ bool ShadowTruth::isObjectEdgeBetween(const osg::Vec2d& from, const osg::Vec2d& 
         const osg::Vec2d p = from + (to - from) * share;
         return s.rayAt(p.x(), p.y());
     };
-    const int first = s.firstHit(rayAt(0.0)).triangle;
-    int second = s.firstHit(rayAt(1.0)).triangle;
-    if (first == second)
-        return false;
-    double low = 0.0, high = 1.0;
-    for (int i = 0; i < 40; ++i)
+    const auto seenAt = [&](double share) { return s.firstHit(rayAt(share)).triangle; };
+    const int last = seenAt(1.0);
+    double start = 0.0;
+    int first = seenAt(start);
+    // From one triangle to the next, as long as they join.
+    for (int joins = 0; joins < 16 && first != last; ++joins)
     {
-        const double middle = 0.5 * (low + high);
-        const int found = s.firstHit(rayAt(middle)).triangle;
-        (found == first ? low : high) = middle;
-        second = found == first ? second : found;
+        double high = 1.0;
+        int second = last;
+        for (int i = 0; i < 40; ++i)
+        {
+            const double middle = 0.5 * (start + high);
+            const int found = seenAt(middle);
+            (found == first ? start : high) = middle;
+            second = found == first ? second : found;
+        }
+        if (first < 0 || second < 0)
+            return true;
+        const EyeRay ray = rayAt(high);
+        const double gap =
+            s.depthOf(s.hitAt(first, ray).point) - s.depthOf(s.hitAt(second, ray).point);
+        if (std::abs(gap) > DepthQuantum)
+            return true;
+        start = high;
+        first = second;
     }
-    if (first < 0 || second < 0)
-        return true;
-    const EyeRay ray = rayAt(high);
-    const double gap = s.depthOf(s.hitAt(first, ray).point) - s.depthOf(s.hitAt(second, ray).point);
-    return std::abs(gap) > DepthQuantum;
+    return false;
 }
 
 bool ShadowTruth::isWithinDepthQuantum(const Light& light, double x, double y, Seen seen) const

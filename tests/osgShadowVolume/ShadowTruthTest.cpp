@@ -321,3 +321,51 @@ TEST(ShadowTruthTest, wrongPixelsAreSortedIntoBandGrazingAndLeaks)
     EXPECT_EQ(difference.leaks, elsewhere);
     EXPECT_EQ(difference.withinQuantum, 0u);
 }
+
+/// At grazing light a wrong pixel is excused where nobody sees it, and only there.
+TEST(ShadowTruthTest, wrongPixelAtGrazingLightIsExcusedWhereItsColorIsRight)
+{
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(light({1.0f, 0.0f, 0.01f, 0.0f}));
+    scene->addChild(geodeOf(square(3.0f, 0.0f)));
+    const ShadowTruth truth(*scene, camera());
+    const truth::Light& l = truth.getScene().lights[0];
+    const truth::TruthPicture picture(truth, l, Width, Height);
+    const osg::ref_ptr<osg::Image> mask = truth::toImage(picture.samples, Width, Height);
+    // Beside the edge between the two triangles of the floor.
+    constexpr int X = Width / 2 + 15, Y = Height / 2;
+    ASSERT_EQ(picture.zones[Y * Width + X], truth::Zone::GRAZING);
+    std::fill_n(mask->data(X, Y), 3, 0);
+    for (float color : {0.0f, 0.9f / 255.0f, 1.1f / 255.0f})
+    {
+        const truth::MaskDifference difference =
+            truth::compareMask(*mask, truth, l, picture, [&](int, int) { return color; });
+        const bool isRight = color < 1.0f / 255.0f;
+        EXPECT_EQ(difference.wrongGrazing, isRight ? 1u : 0u);
+        EXPECT_EQ(difference.worstGrazing, isRight ? color : 0.0f);
+        EXPECT_EQ(difference.leaks, isRight ? 0u : 1u);
+    }
+    // White surfaces get a hundredth of the light: 2.5/255.
+    EXPECT_EQ(truth::compareMask(*mask, truth, l, picture, truth::matteWhite(picture)).leaks, 1u);
+}
+
+TEST(ShadowTruthTest, objectsEndWhereTheDepthJumps)
+{
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(light({0.0f, 0.0f, 4.0f, 1.0f}));
+    scene->addChild(geodeOf(square(0.5f, 1.0f)));
+    scene->addChild(geodeOf(square(3.0f, 0.0f)));
+    const ShadowTruth truth(*scene, camera());
+    const truth::Light& l = truth.getScene().lights[0];
+    const auto triangleAt = [&](double x, double y) { return truth.sample(l, x, y).triangle; };
+    // Both triangles of the upper square, and both squares.
+    ASSERT_EQ(triangleAt(-0.03, 0.24), 1);
+    ASSERT_EQ(triangleAt(0.03, 0.2), 0);
+    EXPECT_FALSE(truth.isObjectEdgeBetween({-0.03, 0.24}, {0.03, 0.2}));
+    ASSERT_GE(triangleAt(0.0, 0.4), 2);
+    EXPECT_TRUE(truth.isObjectEdgeBetween({0.0, 0.4}, {0.0, 0.22}));
+    EXPECT_TRUE(truth.isObjectEdgeBetween({0.0, 0.22}, {0.0, 0.4}));
+    // And the end of everything.
+    ASSERT_EQ(triangleAt(0.0, 0.99), -1);
+    EXPECT_TRUE(truth.isObjectEdgeBetween({0.0, 0.4}, {0.0, 0.99}));
+}
