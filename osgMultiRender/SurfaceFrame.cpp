@@ -390,53 +390,68 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     _items.resize(_bins.size());
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
         _items[bin].resize(_bins[bin].size());
-    if (version < 3.295f)
-    {
-        static std::once_flag said;
-        std::call_once(said,
-                       [&]
-                       {
-                           OSG_WARN << _group->libraryName() << "::" << _group->className()
-                                    << ": OpenGL " << gl->glVersion << " with GLSL "
-                                    << _languageVersion
-                                    << " is older than 3.3, so models keep their fixed-function "
-                                       "look; a driver with "
-                                       "the OpenGL 3.3 compatibility profile is needed"
-                                    << std::endl;
-                       });
-        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-            {
-                _items[bin][i].leaf = _bins[bin][i];
-                ++_beyond["OpenGL older than 3.3"];
-            }
-    }
+    const bool isTooOld = version < 3.295f;
+    if (isTooOld)
+        leaveAll(*gl);
     else
-    {
-        forEachLight(
-            [this](const osg::Light& light, const osg::Matrix*, bool)
-            {
-                if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
-                    _lights[light.getLightNum()] = &light;
-            });
-        _pass->begin(renderInfo, *this);
-        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        resolveAll(renderInfo);
+    withholdLights();
+    sortItems();
+    if (!isTooOld)
+        _pass->drawBefore(renderInfo, *this);
+    writePlan(renderInfo);
+}
+
+void SurfaceFrame::leaveAll(const osg::GLExtensions& gl)
+{
+    static std::once_flag said;
+    std::call_once(said,
+                   [&]
+                   {
+                       OSG_WARN << _group->libraryName() << "::" << _group->className()
+                                << ": OpenGL " << gl.glVersion << " with GLSL " << _languageVersion
+                                << " is older than 3.3, so models keep their fixed-function "
+                                   "look; a driver with "
+                                   "the OpenGL 3.3 compatibility profile is needed"
+                                << std::endl;
+                   });
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        for (std::size_t i = 0; i < _bins[bin].size(); ++i)
         {
-            Surface* surface = nullptr;
-            const osgUtil::StateGraph* graph = nullptr;
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-            {
-                osgUtil::RenderLeaf& leaf = *_bins[bin][i];
-                if (leaf._parent != graph) // leaves of one StateGraph follow each other
-                {
-                    graph = leaf._parent;
-                    surface = &surfaceOf(renderInfo, graph);
-                }
-                resolve(*surface, leaf, _items[bin][i]);
-            }
+            _items[bin][i].leaf = _bins[bin][i];
+            ++_beyond["OpenGL older than 3.3"];
         }
-        _pass->end(renderInfo);
+}
+
+void SurfaceFrame::resolveAll(osg::RenderInfo& renderInfo)
+{
+    forEachLight(
+        [this](const osg::Light& light, const osg::Matrix*, bool)
+        {
+            if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
+                _lights[light.getLightNum()] = &light;
+        });
+    _pass->begin(renderInfo, *this);
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+    {
+        Surface* surface = nullptr;
+        const osgUtil::StateGraph* graph = nullptr;
+        for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+        {
+            osgUtil::RenderLeaf& leaf = *_bins[bin][i];
+            if (leaf._parent != graph) // leaves of one StateGraph follow each other
+            {
+                graph = leaf._parent;
+                surface = &surfaceOf(renderInfo, graph);
+            }
+            resolve(*surface, leaf, _items[bin][i]);
+        }
     }
+    _pass->end(renderInfo);
+}
+
+void SurfaceFrame::withholdLights()
+{
     std::set<unsigned int> mentioned;
     const void* last = nullptr;
     for (const auto& [graph, surfaceState] : _states)
@@ -446,17 +461,20 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             for (unsigned int number : surfaceState.getExtraLights(false))
                 mentioned.insert(number);
         }
-    if (!mentioned.empty())
+    if (mentioned.empty())
+        return;
+    osg::ref_ptr<osg::StateSet> withheld = new osg::StateSet;
+    for (unsigned int number : mentioned)
     {
-        osg::ref_ptr<osg::StateSet> withheld = new osg::StateSet;
-        for (unsigned int number : mentioned)
-        {
-            withheld->setMode(GL_LIGHT0 + number,
-                              osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-            withheld->setAttribute(new WithheldLights(number), osg::StateAttribute::OVERRIDE);
-        }
-        _withheld = withheld;
+        withheld->setMode(GL_LIGHT0 + number,
+                          osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+        withheld->setAttribute(new WithheldLights(number), osg::StateAttribute::OVERRIDE);
     }
+    _withheld = withheld;
+}
+
+void SurfaceFrame::sortItems()
+{
     std::unordered_map<const SurfaceVariant*, std::uint32_t> orderOf;
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
     {
@@ -467,9 +485,6 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         if (!std::is_sorted(_items[bin].begin(), _items[bin].end(), byOrder))
             std::stable_sort(_items[bin].begin(), _items[bin].end(), byOrder);
     }
-    if (version >= 3.295f)
-        _pass->drawBefore(renderInfo, *this);
-    writePlan(renderInfo);
 }
 
 void SurfaceFrame::proxyDrawn(osg::RenderInfo& renderInfo)

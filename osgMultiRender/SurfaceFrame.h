@@ -84,7 +84,15 @@ protected:
 private:
     void addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy);
     void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
+    /// Before the first leaf is drawn: decides on all of them.
     void prepare(osg::RenderInfo& renderInfo);
+    /// Under an OpenGL that can't do more, all leaves keep the fixed function.
+    void leaveAll(const osg::GLExtensions& gl);
+    void resolveAll(osg::RenderInfo& renderInfo);
+    /// Keeps lights that GL has not from it.
+    void withholdLights();
+    /// Leaves of one variant behind each other, in bins that have no order of their own.
+    void sortItems();
     /// What the leaves of one StateGraph have in common.
     struct Surface
     {
