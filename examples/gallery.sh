@@ -7,9 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 lit='.(shadows=off,lighting=pixel).shadowvolume'
 shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
 volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
+measuring=measuring # has no plain form
 while (($#)); do
     case $1 in
-        --plain) lit= shadowed= mask= volumes= maps=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps= measuring=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -38,7 +39,7 @@ cp examples/scenes/*.iv examples/scenes/*.wrl "$scenes"
 ln -sfn "$models" "$scenes/models"
 
 scripts=()
-for script in shadows chess machines robots scenes vehicles household formats; do
+for script in shadows $measuring chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"

@@ -76,70 +76,84 @@ const char* LightShadows::whyNoShadow(const EyeLight& light) const
     return nullptr;
 }
 
+/// What decides on the shadows of all lights, in eye coordinates.
+struct LightShadows::Seen
+{
+    glm::dmat4 projection;
+    glm::dvec4 viewport;
+    Hexahedron receivers, frustum, nearRectangle;
+    std::vector<Hexahedron> boxes{}; ///< Of the casters; none where no light casts shadows.
+    std::vector<EyeSphere> spheres{};
+};
+
 void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                         const std::vector<EyeLight>& lights, const std::vector<double>& limits)
 {
     _lights = &lights;
     const glm::dmat4 projection = glm::make_mat4(_projection->ptr());
-    const Hexahedron frustum = frustumOf(projection), nearRectangle = nearRectangleOf(projection);
+    Seen seen{projection, viewport, receivers, frustumOf(projection), nearRectangleOf(projection)};
     // Casters may be many, and a headlight alone asks for none.
     const bool anyCasts =
         std::any_of(lights.begin(), lights.end(),
                     [this](const EyeLight& light) { return whyNoShadow(light) == nullptr; });
-    std::vector<Hexahedron> boxes;
-    std::vector<EyeSphere> spheres;
     for (std::size_t i = 0; anyCasts && i < _casters.size(); ++i)
     {
         const osg::BoundingBox& box = _casters[i].box;
-        boxes.push_back(boxOf(glm::make_vec3(box._min.ptr()), glm::make_vec3(box._max.ptr()),
-                              glm::make_mat4(_casters[i].modelview->ptr())));
-        spheres.push_back(sphereAround(boxes.back()));
+        seen.boxes.push_back(boxOf(glm::make_vec3(box._min.ptr()), glm::make_vec3(box._max.ptr()),
+                                   glm::make_mat4(_casters[i].modelview->ptr())));
+        seen.spheres.push_back(sphereAround(seen.boxes.back()));
     }
+    int index = 0;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+    {
+        _decisions.push_back(decide(lights[i], limits[i], seen));
+        if (_decisions.back().reason.empty())
+            _decisions.back().index = index++;
+    }
+}
+
+LightDecision LightShadows::decide(const EyeLight& light, double limit, const Seen& seen) const
+{
+    LightDecision decision;
     // A mask shows whether a light is taken away even where there is none of it.
     const bool everywhere = _settings.show == Show::MASK;
-    int index = 0;
-    for (std::size_t number = 0; number < lights.size(); ++number)
+    const double reach =
+        everywhere
+            ? std::numeric_limits<double>::infinity()
+            : std::min({limit, reachPast(seen.receivers, light), reachPast(seen.frustum, light)});
+    const std::optional<ScreenBounds> bounds =
+        screenBounds(sphereOf(light, reach), seen.projection, seen.viewport);
+    if (const char* reason = whyNoShadow(light))
     {
-        const EyeLight& light = lights[number];
-        LightDecision decision;
-        const double reach = everywhere ? std::numeric_limits<double>::infinity()
-                                        : std::min({limits[number], reachPast(receivers, light),
-                                                    reachPast(frustum, light)});
-        const std::optional<ScreenBounds> bounds =
-            screenBounds(sphereOf(light, reach), projection, viewport);
-        if (const char* reason = whyNoShadow(light))
-            decision.reason = reason;
-        else if (!bounds)
-            decision.reason = "it lights nothing on the screen";
-        else
-        {
-            decision.bounds = *bounds;
-            const glm::dvec4 l(light.position, light.isDirectional() ? 0.0 : 1.0);
-            const ShadowHull toReceivers(receivers, l), toFrustum(frustum, l),
-                toNear(nearRectangle, l);
-            for (std::uint32_t i = 0; i < boxes.size(); ++i)
-                // Where light does not come, none is taken away.
-                if ((everywhere || reaches(light, reach, spheres[i].center, spheres[i].radius)) &&
-                    toReceivers.mayTouch(boxes[i]) && toFrustum.mayTouch(boxes[i]))
-                {
-                    decision.casters.push_back(i);
-                    // z-pass leaves out the near cap, which lies in a surface that hides what is
-                    // behind.
-                    decision.needsZFail.push_back(_isClipped || _casters[i].seenThrough ||
-                                                  toNear.mayTouch(boxes[i]));
-                }
-            const bool castsPastNear =
-                std::find(decision.needsZFail.begin(), decision.needsZFail.end(), true) !=
-                decision.needsZFail.end();
-            if (decision.casters.empty())
-                decision.reason = "no caster between it and what is in view";
-            else if (!castsPastNear && hidesItsShadows(light, projection, viewport))
-                decision.reason = "its shadows hide behind what casts them";
-            else
-                decision.index = index++;
-        }
-        _decisions.push_back(std::move(decision));
+        decision.reason = reason;
+        return decision;
     }
+    if (!bounds)
+    {
+        decision.reason = "it lights nothing on the screen";
+        return decision;
+    }
+    decision.bounds = *bounds;
+    const glm::dvec4 l(light.position, light.isDirectional() ? 0.0 : 1.0);
+    const ShadowHull toReceivers(seen.receivers, l), toFrustum(seen.frustum, l),
+        toNear(seen.nearRectangle, l);
+    for (std::uint32_t i = 0; i < seen.boxes.size(); ++i)
+        // Where light does not come, none is taken away.
+        if ((everywhere || reaches(light, reach, seen.spheres[i].center, seen.spheres[i].radius)) &&
+            toReceivers.mayTouch(seen.boxes[i]) && toFrustum.mayTouch(seen.boxes[i]))
+        {
+            decision.casters.push_back(i);
+            // z-pass leaves out the near cap, which lies in a surface that hides what is behind.
+            decision.needsZFail.push_back(_isClipped || _casters[i].seenThrough ||
+                                          toNear.mayTouch(seen.boxes[i]));
+        }
+    const bool castsPastNear = std::find(decision.needsZFail.begin(), decision.needsZFail.end(),
+                                         true) != decision.needsZFail.end();
+    if (decision.casters.empty())
+        decision.reason = "no caster between it and what is in view";
+    else if (!castsPastNear && hidesItsShadows(light, seen.projection, seen.viewport))
+        decision.reason = "its shadows hide behind what casts them";
+    return decision;
 }
 
 bool LightShadows::receives(const osgUtil::RenderLeaf& leaf,

@@ -94,6 +94,9 @@ protected:
     osg::RefMatrix* getProjection() const { return _projection.get(); }
 
 private:
+    struct Seen;
+    /// Without an index; the reason is empty for a light that casts visible shadows.
+    LightDecision decide(const EyeLight& light, double limit, const Seen& seen) const;
     /// What the light or the settings say against its shadows; null for nothing.
     const char* whyNoShadow(const EyeLight& light) const;
 

@@ -248,70 +248,80 @@ void Mirrors::cull(osgUtil::CullVisitor& visitor, osg::Group& group)
                                                     " are drawn (maxmirrors)");
 }
 
+/// Where from mirrors are looked at.
+struct Mirrors::View
+{
+    glm::dmat4 projection;
+    glm::dvec4 eye;
+    /// A Drawable that is used in several places has a leaf for each.
+    std::unordered_multimap<const osg::Drawable*, const osgUtil::RenderLeaf*> leaves;
+};
+
 std::vector<Mirrors::Found> Mirrors::find(osgUtil::CullVisitor& visitor,
                                           std::vector<NamedMirror>& named)
 {
+    View view;
+    view.projection = glm::make_mat4(visitor.getProjectionMatrix()->ptr());
+    view.eye = eyeOf(view.projection);
     std::unordered_set<const osg::Drawable*> drawables;
     for (const NamedMirror& mirror : named)
         drawables.insert(mirror.drawable);
-    std::unordered_multimap<const osg::Drawable*, const osgUtil::RenderLeaf*> seen;
     forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
                 [&](const osgUtil::StateGraph::LeafList& list)
                 {
                     for (const auto& leaf : list)
                         if (leaf->_projection == visitor.getProjectionMatrix() &&
                             drawables.count(leaf->_drawable.get()))
-                            seen.emplace(leaf->_drawable.get(), leaf.get());
+                            view.leaves.emplace(leaf->_drawable.get(), leaf.get());
                 });
-    const glm::dmat4 projection = glm::make_mat4(visitor.getProjectionMatrix()->ptr());
-    const glm::dvec4 eye = eyeOf(projection);
     std::vector<Found> result;
     for (NamedMirror& mirror : named)
     {
-        std::string error;
-        const auto local = _resources.shapes.get(mirror, error);
-        if (!local)
+        Found found;
+        const std::string reason = whyUnseen(mirror, view, found);
+        if (!reason.empty())
         {
-            drop(mirror.name, "it is " + error);
+            drop(mirror.name, reason);
             continue;
         }
-        Found found;
-        found.shape = local->transformed(glm::make_mat4(mirror.modelview.ptr()));
-        found.share = shareOfView(found.shape, projection);
-        const auto plane = planeTowards(found.shape, eye);
-        // A Drawable that is used in several places has a leaf for each.
-        const auto [first, last] = seen.equal_range(mirror.drawable);
-        const auto leaf = std::find_if(first, last,
-                                       [&](const auto& each) {
-                                           return each.second->_modelview &&
-                                                  *each.second->_modelview == mirror.modelview;
-                                       });
-        if (isBehind(found.shape, projection))
-            drop(mirror.name, "it is behind the viewer");
-        else if (!plane)
-            drop(mirror.name, "it is seen edge-on");
-        else if (!(found.share > 0.0))
-            drop(mirror.name, "it is out of view");
-        else if (leaf == last)
-            drop(mirror.name, "it was culled");
-        else
-        {
-            found.leaf = leaf->second;
-            const PathState state(*found.leaf);
-            const auto* program = state.get<osg::Program>(osg::StateAttribute::PROGRAM);
-            if (isCulled(state, showsFront(found.shape, *plane)))
-                drop(mirror.name, "the side that faces the viewer is not drawn (GL_CULL_FACE)");
-            else if (program && program->getNumShaders())
-                drop(mirror.name, "it has a program of its own");
-            else
-            {
-                found.plane = *plane;
-                found.mirror = std::move(mirror);
-                result.push_back(std::move(found));
-            }
-        }
+        found.mirror = std::move(mirror);
+        result.push_back(std::move(found));
     }
     return result;
+}
+
+std::string Mirrors::whyUnseen(const NamedMirror& mirror, const View& view, Found& found)
+{
+    std::string error;
+    const auto local = _resources.shapes.get(mirror, error);
+    if (!local)
+        return "it is " + error;
+    found.shape = local->transformed(glm::make_mat4(mirror.modelview.ptr()));
+    found.share = shareOfView(found.shape, view.projection);
+    if (isBehind(found.shape, view.projection))
+        return "it is behind the viewer";
+    const auto plane = planeTowards(found.shape, view.eye);
+    if (!plane)
+        return "it is seen edge-on";
+    found.plane = *plane;
+    if (!(found.share > 0.0))
+        return "it is out of view";
+    const auto [first, last] = view.leaves.equal_range(mirror.drawable);
+    const auto leaf = std::find_if(first, last,
+                                   [&](const auto& each) {
+                                       return each.second->_modelview &&
+                                              *each.second->_modelview == mirror.modelview;
+                                   });
+    if (leaf == last)
+        return "it was culled";
+    found.leaf = leaf->second;
+    const PathState state(*found.leaf);
+    if (isCulled(state, showsFront(found.shape, *plane)))
+        return "the side that faces the viewer is not drawn (GL_CULL_FACE)";
+    const auto* program = state.get<osg::Program>(osg::StateAttribute::PROGRAM);
+    if (program && program->getNumShaders())
+        return "it has a program of its own";
+    return {};
 }
 
 std::vector<Mirrors::Plane> Mirrors::join(const std::vector<Found>& found) const

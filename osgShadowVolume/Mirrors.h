@@ -84,6 +84,7 @@ public:
 
 private:
     struct Found;
+    struct View;
     struct Plane
     {
         glm::dvec4 equation{0.0};
@@ -103,6 +104,8 @@ private:
     void trim(osgUtil::CullVisitor& visitor, osg::Group& group, const MirrorCamera& camera);
     /// Those that show on the picture; the others are dropped.
     std::vector<Found> find(osgUtil::CullVisitor& visitor, std::vector<NamedMirror>& named);
+    /// Fills in what is seen of a mirror but its name; empty, or why nothing is.
+    std::string whyUnseen(const NamedMirror& mirror, const View& view, Found& found);
     std::vector<Plane> join(const std::vector<Found>& found) const;
     void draw(osgUtil::CullVisitor& visitor, osg::Group& group, Plane& plane,
               const std::vector<Found>& found);
