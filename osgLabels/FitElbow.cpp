@@ -37,36 +37,57 @@ struct ByRing
     double z, rho, across;
 };
 
-/// Least squares for a circle around the points that lie at the top and bottom of the tube: they
-/// are about as far from the axis as the tube's middle.
-std::optional<Ring> guessRing(const std::vector<glm::dvec3>& points, const glm::dmat3& frame)
+/// Solves a symmetric system of three by its inverse.
+std::optional<glm::dvec3> solve(const glm::dmat3& m, const glm::dvec3& right)
 {
-    const Extent extent(points, frame);
-    const double middle = extent.center().z, tube = extent.half().z;
-    double m[3][4] = {};
-    int count = 0;
+    const double size = std::abs(m[0][0]) + std::abs(m[1][1]) + std::abs(m[2][2]);
+    if (!(std::abs(glm::determinant(m)) > 1e-13 * size * size * size))
+        return std::nullopt;
+    return glm::inverse(m) * right;
+}
+
+/// A ring with an axis of that direction. The normals of what turns around an axis meet the axis,
+/// which gives its place; then the profile's circle is one of least squares. Facets that face along
+/// `along` too much may be flat ends, which do not turn, and are left out.
+std::optional<Ring> guessRing(const FitMesh& mesh, const std::vector<glm::dvec3>& points,
+                              const glm::dvec3& axis, const glm::dvec3& along)
+{
+    const glm::dmat3 frame = frameAround(axis);
+    // The third row keeps the system regular: nothing is said of the place along the axis.
+    glm::dmat3 m(0.0);
+    m[2][2] = 1.0;
+    glm::dvec3 right(0.0);
+    for (const FitMesh::Facet& facet : mesh.facets)
+    {
+        if (std::abs(glm::dot(facet.normal, along)) > 0.6)
+            continue;
+        const glm::dvec3 n = facet.normal * frame, p = facet.middle * frame;
+        const glm::dvec3 row(n.y, -n.x, 0.0);
+        const double weight = facet.area / mesh.area;
+        m += weight * glm::outerProduct(row, row);
+        right += weight * glm::dot(row, p) * row;
+    }
+    const auto place = solve(m, right);
+    if (!place || glm::dot(*place, *place) > 1e6)
+        return std::nullopt;
+    const glm::dvec3 center = frame * *place;
+    m = glm::dmat3(0.0);
+    right = glm::dvec3(0.0);
     for (const glm::dvec3& point : points)
     {
-        const glm::dvec3 p = point * frame;
-        if (std::abs(p.z - middle) < 0.8 * tube)
-            continue;
-        const double row[4] = {2.0 * p.x, 2.0 * p.y, 1.0, p.x * p.x + p.y * p.y};
-        for (int i = 0; i != 3; ++i)
-            for (int k = 0; k != 4; ++k)
-                m[i][k] += row[i] * row[k];
-        ++count;
+        const glm::dvec3 p = (point - center) * frame;
+        const glm::dvec2 at(std::hypot(p.x, p.y), p.z);
+        const glm::dvec3 row(2.0 * at.x, 2.0 * at.y, 1.0);
+        m += glm::outerProduct(row, row);
+        right += glm::dot(at, at) * row;
     }
-    if (count < 6)
+    const auto circle = solve(m, right);
+    if (!circle)
         return std::nullopt;
-    const glm::dmat3 a(m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2],
-                       m[2][2]);
-    if (!(std::abs(glm::determinant(a)) > 1e-12))
+    const double squared = circle->z + circle->x * circle->x + circle->y * circle->y;
+    if (!(squared > 0.0))
         return std::nullopt;
-    const glm::dvec3 x = glm::inverse(a) * glm::dvec3(m[0][3], m[1][3], m[2][3]);
-    const double squared = x.z + x.x * x.x + x.y * x.y;
-    if (!(squared > 0.0) || squared > 1e6)
-        return std::nullopt;
-    return Ring{frame[2], frame * glm::dvec3(x.x, x.y, middle), std::sqrt(squared), tube};
+    return Ring{axis, center + circle->y * axis, circle->x, std::sqrt(squared)};
 }
 
 /// The rows of a least squares step: tilt of the axis, center, radius, tube.
@@ -197,41 +218,39 @@ std::vector<glm::dvec3> sampled(const std::vector<glm::dvec3>& points)
     return samples;
 }
 
-/// The ring of a bend, given the direction of its tube halfway: the tube's middle leaves that line
-/// to the side, with the square of the distance.
-std::optional<Ring> guessBend(const std::vector<glm::dvec3>& points, const glm::dvec3& along)
+/// The axis of a bend, given the direction of its tube halfway: along the tube normals lean the
+/// more that way the more they face in or out of the bend.
+std::optional<glm::dvec3> bendAxis(const FitMesh& mesh, const glm::dvec3& along)
 {
-    const double share = 1.0 / double(points.size());
-    glm::dvec3 mean(0.0);
-    double meanSquare = 0.0;
-    for (const glm::dvec3& point : points)
-    {
-        const double t = glm::dot(point, along);
-        mean += share * point;
-        meanSquare += share * t * t;
-    }
     glm::dvec3 side(0.0);
-    double variance = 0.0;
+    for (const FitMesh::Facet& facet : mesh.facets)
+    {
+        const double lean = glm::dot(facet.normal, along);
+        if (std::abs(lean) < 0.6)
+            side += facet.area / mesh.area * lean *
+                    glm::dot(facet.middle - mesh.centroid, along) * facet.normal;
+    }
+    const glm::dvec3 axis = glm::cross(along, side);
+    const double length = glm::length(axis);
+    return length > 1e-9 ? std::optional<glm::dvec3>(axis / length) : std::nullopt;
+}
+
+/// Root mean square distance of points from the tube.
+double spread(const Ring& ring, const std::vector<glm::dvec3>& points)
+{
+    double sum = 0.0;
     for (const glm::dvec3& point : points)
     {
-        const double t = glm::dot(point, along);
-        side += share * (t * t - meanSquare) * (point - mean);
-        variance += share * (t * t - meanSquare) * (t * t - meanSquare);
+        const double off = ByRing(ring, point).across - ring.tube;
+        sum += off * off;
     }
-    side -= glm::dot(side, along) * along;
-    const double length = glm::length(side);
-    if (!(length > 1e-9))
-        return std::nullopt;
-    const double radius = 0.5 * variance / length;
-    const glm::dvec3 axis = glm::cross(along, side) / length;
-    const Extent extent(points, frameAround(axis));
-    return Ring{axis, mean + (radius / length) * side, radius, extent.half().z};
+    return std::sqrt(sum / double(points.size()));
 }
 
 std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm::dvec3>& samples,
                                      std::optional<Ring> ring)
 {
-    if (!ring)
+    if (!ring || spread(*ring, samples) > 0.5 * ring->tube)
         return std::nullopt;
     for (int i = 0; i != 12; ++i)
     {
@@ -268,11 +287,14 @@ std::optional<FittedShape> fitElbow(const FitMesh& mesh)
         return std::nullopt;
     const std::vector<glm::dvec3> samples = sampled(mesh.points);
     for (int i = 0; i != 3; ++i)
-        if (auto elbow = fitAround(mesh, samples, guessBend(samples, mesh.axes[i])))
-            return elbow;
-    // Bends of half a circle and more come back.
+        if (const auto axis = bendAxis(mesh, mesh.axes[i]))
+            if (auto elbow = fitAround(mesh, samples,
+                                       guessRing(mesh, samples, *axis, mesh.axes[i])))
+                return elbow;
+    // Bends of half a circle and more have normals all around.
     for (int i = 0; i != 3; ++i)
-        if (auto elbow = fitAround(mesh, samples, guessRing(samples, frameAround(mesh.axes[i]))))
+        if (auto elbow = fitAround(mesh, samples,
+                                   guessRing(mesh, samples, mesh.axes[i], glm::dvec3(0.0))))
             return elbow;
     return std::nullopt;
 }
