@@ -15,9 +15,9 @@ using osgLabels::GlyphSet;
 namespace
 {
 
-struct Setup
+struct Letters
 {
-    Setup()
+    Letters()
     {
         std::string error;
         glyphs = std::make_shared<GlyphSet>(FontFace::openOrDefault("", error));
@@ -37,7 +37,7 @@ TEST(CoverageGLTest, table)
     support::HeadlessViewer viewer({256, 256});
     OSGKITS_NEED_GL(viewer);
     const auto t0 = std::chrono::steady_clock::now();
-    Setup setup;
+    Letters setup;
     std::printf(
         "setup %.0f ms, %u glyphs, %zu bytes\n",
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - t0).count(),

@@ -8,6 +8,7 @@
 #include <osg/TextureBuffer>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace
@@ -92,7 +93,7 @@ osg::ref_ptr<osg::Image> CoveragePage::makeTruth(const CoverageView& view, int s
     osg::ref_ptr<osg::Image> picture = new osg::Image;
     picture->allocateImage(size, size, 1, GL_RED, GL_FLOAT);
     std::vector<std::uint32_t> codes;
-    int current = -1 << 30;
+    int current = std::numeric_limits<int>::min();
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x)
         {
