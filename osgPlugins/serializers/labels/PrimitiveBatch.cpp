@@ -159,10 +159,9 @@ std::string readText(osgDB::InputStream& is, PrimitiveBatch& batch, unsigned int
         if (is.getException())
             return "object " + std::to_string(i) + " is cut off";
         primitive.shape = osgLabels::Shape(shape);
-        primitive.color.set(static_cast<unsigned char>(color[0]),
-                            static_cast<unsigned char>(color[1]),
-                            static_cast<unsigned char>(color[2]),
-                            static_cast<unsigned char>(color[3]));
+        primitive.color.set(
+            static_cast<unsigned char>(color[0]), static_cast<unsigned char>(color[1]),
+            static_cast<unsigned char>(color[2]), static_cast<unsigned char>(color[3]));
         if (!batch.add(primitive))
             return "object " + std::to_string(i) + " can't be drawn";
     }
