@@ -83,7 +83,8 @@ void CellBuilder::addCell(Index* first, Index* last)
 void CellBuilder::fillPages()
 {
     const std::vector<PrimitiveBatch::Cell>& cells = _content.cells;
-    const auto startOf = [&](std::size_t cell) {
+    const auto startOf = [&](std::size_t cell)
+    {
         return cell < cells.size() ? cells[cell].firstObject
                                    : static_cast<unsigned int>(_order.size());
     };

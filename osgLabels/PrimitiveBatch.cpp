@@ -84,9 +84,8 @@ bool PrimitiveBatch::add(const Primitive& primitive)
     Added added;
     added.position = primitive.position;
     added.color = primitive.color;
-    added.record.rotation =
-        glm::quat(float(inverse.w() / length), float(inverse.x() / length),
-                  float(inverse.y() / length), float(inverse.z() / length));
+    added.record.rotation = glm::quat(float(inverse.w() / length), float(inverse.x() / length),
+                                      float(inverse.y() / length), float(inverse.z() / length));
     added.record.shape = std::uint32_t(primitive.shape);
     added.record.size = glm::vec3(primitive.size.x(), primitive.size.y(), primitive.size.z());
     _added.push_back(added);
@@ -302,8 +301,8 @@ void PrimitiveBatch::makeNodes()
     {
         if (run.cell == cells.size())
         {
-            osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(
-                osg::Matrix::translate(_cells[run.cell].center));
+            osg::ref_ptr<osg::MatrixTransform> transform =
+                new osg::MatrixTransform(osg::Matrix::translate(_cells[run.cell].center));
             // Or the viewer's optimizer would try to move it into the records.
             transform->setDataVariance(osg::Object::DYNAMIC);
             cells.push_back(transform);

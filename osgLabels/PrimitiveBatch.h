@@ -19,10 +19,10 @@ namespace osgLabels
 /// One object of a PrimitiveBatch.
 struct Primitive
 {
-    Shape shape = Shape::Box; ///< One that isPrimitive() takes; an extrusion is a box.
-    osg::Vec3 size{0.5f, 0.5f, 0.5f}; ///< See Shape; not negative.
-    osg::Vec3d position;              ///< Of the shape's frame, in the batch's coordinates.
-    osg::Quat rotation;               ///< From the shape's frame to the batch's coordinates.
+    Shape shape = Shape::Box;              ///< One that isPrimitive() takes; an extrusion is a box.
+    osg::Vec3 size{0.5f, 0.5f, 0.5f};      ///< See Shape; not negative.
+    osg::Vec3d position;                   ///< Of the shape's frame, in the batch's coordinates.
+    osg::Quat rotation;                    ///< From the shape's frame to the batch's coordinates.
     osg::Vec4ub color{255, 255, 255, 255}; ///< Alpha below 255 is transparent.
     std::string name;                      ///< UTF-8; line ends become spaces.
 };

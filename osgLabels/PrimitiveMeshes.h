@@ -21,8 +21,8 @@ public:
 
     struct Level
     {
-        UnitMesh mesh;               ///< Indices from 0.
-        std::size_t firstIndex = 0;  ///< In indices().
+        UnitMesh mesh;              ///< Indices from 0.
+        std::size_t firstIndex = 0; ///< In indices().
     };
 
     int size() const { return static_cast<int>(_levels.size()); }

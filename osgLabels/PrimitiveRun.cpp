@@ -148,8 +148,7 @@ unsigned int PrimitiveRun::getNumTriangles() const
 unsigned int PrimitiveRun::getObject(unsigned int primitiveIndex) const
 {
     const unsigned int triangles = getNumTriangles();
-    return _firstObject +
-           (triangles ? std::min(primitiveIndex / triangles, _count - 1) : 0);
+    return _firstObject + (triangles ? std::min(primitiveIndex / triangles, _count - 1) : 0);
 }
 
 /// Steps of a quarter: few, and no object is drawn much finer than it has to be.
@@ -188,8 +187,8 @@ void PrimitiveRun::forEachFar(const PixelScale& scale,
                               const std::function<void(const Range&)>& draw) const
 {
     const osg::BoundingSphere& bound = getBound();
-    const double pixels = scale.at(scale.depthOf(bound.center()) +
-                                   bound.radius() * scale.eyeScale());
+    const double pixels =
+        scale.at(scale.depthOf(bound.center()) + bound.radius() * scale.eyeScale());
     unsigned int end = _count, low = 0;
     while (low < end) // the first object that is too small to be seen
     {
@@ -203,8 +202,8 @@ void PrimitiveRun::forEachFar(const PixelScale& scale,
     for (std::size_t i = 0; i < _curves.size() && _curves[i].first < end; ++i)
     {
         const unsigned int next = i + 1 < _curves.size() ? _curves[i + 1].first : _count;
-        const int level = std::min(levelFor(float(_curves[i].radius * pixels)),
-                                   _meshes->size() - 1);
+        const int level =
+            std::min(levelFor(float(_curves[i].radius * pixels)), _meshes->size() - 1);
         if (range.count && level != range.level)
         {
             draw(range);

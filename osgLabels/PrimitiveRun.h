@@ -27,8 +27,7 @@ public:
     /// `firstObject` is the number of the first one in its batch.
     PrimitiveRun(RecordPage* page, unsigned int first, unsigned int count,
                  unsigned int firstObject);
-    PrimitiveRun(const PrimitiveRun& other,
-                 const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+    PrimitiveRun(const PrimitiveRun& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
 
     META_Object(osgLabels, PrimitiveRun)
 

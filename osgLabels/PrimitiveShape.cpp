@@ -48,8 +48,7 @@ SurfacePoint scaled(const glm::vec3& size, const SurfacePoint& unit)
 {
     const float largest = std::max(std::max(size.x, size.y), size.z);
     const glm::vec3 s = largest > 0.0f ? size / largest : glm::vec3(0.0f);
-    return {unit.position * size,
-            unit.normal * glm::vec3(s.y * s.z, s.z * s.x, s.x * s.y)};
+    return {unit.position * size, unit.normal * glm::vec3(s.y * s.z, s.z * s.x, s.x * s.y)};
 }
 
 SurfacePoint inShapeFrame(const ObjectRecord& record, const SurfacePoint& unit)
@@ -118,8 +117,7 @@ ShapeBox localBox(const ObjectRecord& record)
 {
     const ShapeBox box = shapeBox(record);
     const glm::vec3 half = 0.5f * (box.high - box.low);
-    const glm::vec3 center =
-        unrotate(record.rotation, 0.5f * (box.high + box.low)) + record.origin;
+    const glm::vec3 center = unrotate(record.rotation, 0.5f * (box.high + box.low)) + record.origin;
     glm::vec3 extent(0.0f);
     for (int axis = 0; axis < 3; ++axis)
     {

@@ -39,10 +39,10 @@ osg::ref_ptr<osg::Program> makeProgram()
         osg::Shader::VERTEX,
         version + instance +
             shaderText(osg::Shader::VERTEX, "osgLabels/primitive.vert", shaders::primitive_vert)));
-    program->addShader(new osg::Shader(
-        osg::Shader::FRAGMENT, version + shaderText(osg::Shader::FRAGMENT,
-                                                    "osgLabels/primitive.frag",
-                                                    shaders::primitive_frag)));
+    program->addShader(
+        new osg::Shader(osg::Shader::FRAGMENT,
+                        version + shaderText(osg::Shader::FRAGMENT, "osgLabels/primitive.frag",
+                                             shaders::primitive_frag)));
     program->setThreadSafeRefUnref(true);
     return program;
 }

@@ -144,8 +144,9 @@ void addTorus(MeshBuilder& mesh, int sides)
         return vec3(x, c.x, c.y);
     };
     mesh.grid(sides, sides,
-              [=](int i, int j) -> SurfacePoint
-              { return {ring(j, float(i) / float(sides)), ring(j, 0.0f)}; });
+              [=](int i, int j) -> SurfacePoint {
+                  return {ring(j, float(i) / float(sides)), ring(j, 0.0f)};
+              });
     mesh.disc(sides, vec3(-1.0f, 0.0f, 0.0f), [=](int i) { return ring(i, 0.0f); });
     mesh.disc(sides, vec3(1.0f, 0.0f, 0.0f), [=](int i) { return ring(sides - i, 1.0f); });
 }

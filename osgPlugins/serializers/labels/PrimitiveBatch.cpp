@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/PrimitiveBatch.h>
 
-#include <osg/Endian>
 #include <osgDB/InputStream>
 #include <osgDB/ObjectWrapper>
 #include <osgDB/OutputStream>
 #include <osgDB/Serializer>
 
-#include <cstdlib>
-#include <limits>
+#include <algorithm>
 
 namespace
 {
@@ -18,32 +16,38 @@ using osgLabels::RecordPage;
 
 // Binary files hold the arrays as they lie in memory, text files one object after the other.
 
-void writeWords(osgDB::OutputStream& os, const void* words, std::size_t count)
+constexpr std::size_t PieceBytes = 1 << 20;
+
+/// In pieces with a length each, so that a wrong count in a file ends at the end of the file and
+/// not in the allocator.
+template <class Word> void writeWords(osgDB::OutputStream& os, const Word* words, std::size_t count)
 {
-    os.writeCharArray(static_cast<const char*>(words), static_cast<unsigned int>(4 * count));
+    while (count)
+    {
+        const std::size_t size = std::min(PieceBytes / sizeof(Word), count);
+        os << static_cast<unsigned int>(size);
+        os.writeCharArray(reinterpret_cast<const char*>(words),
+                          static_cast<unsigned int>(sizeof(Word) * size));
+        words += size;
+        count -= size;
+    }
 }
 
-/// In pieces, so that a wrong count in a file ends at the file's end and not in the allocator.
 template <class Word>
 bool readWords(osgDB::InputStream& is, std::vector<Word>& words, std::size_t count)
 {
-    constexpr std::size_t piece = 1 << 20;
-    while (words.size() < count && !is.getException() && !is.getInputIterator()->isFailed())
+    while (words.size() < count)
     {
-        const std::size_t first = words.size(), size = std::min(piece, count - first);
+        unsigned int size = 0;
+        is >> size;
+        if (is.getException() || size == 0 || size > PieceBytes / sizeof(Word) ||
+            size > count - words.size())
+            return false;
+        const std::size_t first = words.size();
         words.resize(first + size);
-        is.readCharArray(reinterpret_cast<char*>(&words[first]),
-                         static_cast<unsigned int>(sizeof(Word) * size));
+        is.readComponentArray(reinterpret_cast<char*>(&words[first]), size, 1, sizeof(Word));
     }
-    return words.size() == count && !is.getInputIterator()->isFailed();
-}
-
-template <class Word> void swapWords(const osgDB::InputStream& is, Word* words, std::size_t count)
-{
-    if (!is.getInputIterator()->getByteSwap())
-        return;
-    for (std::size_t i = 0; i < count; ++i)
-        osg::swapBytes(reinterpret_cast<char*>(words + i), sizeof(Word));
+    return true;
 }
 
 void fail(osgDB::InputStream& is, PrimitiveBatch& batch, const std::string& cause)
@@ -59,8 +63,8 @@ void writeBinary(osgDB::OutputStream& os, const PrimitiveBatch& batch)
     for (const osg::ref_ptr<RecordPage>& page : content.pages)
     {
         os << page->size();
-        writeWords(os, page->getRecords().getDataPointer(), page->getRecords().size());
-        writeWords(os, page->getColors().getDataPointer(), page->getColors().size());
+        writeWords(os, &page->getRecords().front(), page->getRecords().size());
+        writeWords(os, page->getColors().front().ptr(), 4 * page->size());
     }
     os << static_cast<unsigned int>(content.cells.size());
     for (const PrimitiveBatch::Cell& cell : content.cells)
@@ -70,7 +74,7 @@ void writeBinary(osgDB::OutputStream& os, const PrimitiveBatch& batch)
         os << run.cell << run.count << run.transparent;
     const osgLabels::NameList& names = content.names;
     os << static_cast<unsigned int>(names.block().size());
-    os.writeCharArray(names.block().data(), static_cast<unsigned int>(names.block().size()));
+    writeWords(os, names.block().data(), names.block().size());
     writeWords(os, names.ends().data(), names.ends().size());
 }
 
@@ -81,13 +85,12 @@ osg::ref_ptr<RecordPage> readPage(osgDB::InputStream& is)
     if (size == 0 || size > RecordPage::MaxObjects)
         return nullptr;
     osg::ref_ptr<osg::UIntArray> records = new osg::UIntArray;
-    osg::ref_ptr<osg::Vec4ubArray> colors = new osg::Vec4ubArray;
-    const bool read =
-        readWords(is, records->asVector(), osgLabels::ObjectRecord::Words * size) &&
-        readWords(is, colors->asVector(), size);
-    if (!read)
+    osg::ref_ptr<osg::Vec4ubArray> colors = new osg::Vec4ubArray(size);
+    std::vector<unsigned char> channels;
+    if (!readWords(is, records->asVector(), osgLabels::ObjectRecord::Words * size) ||
+        !readWords(is, channels, 4 * std::size_t(size)))
         return nullptr;
-    swapWords(is, &records->front(), records->size());
+    std::copy(channels.begin(), channels.end(), colors->front().ptr());
     osg::ref_ptr<RecordPage> page = new RecordPage(records, colors);
     for (unsigned int i = 0; i < size; ++i)
         page->setIdentifier(i, 0);
@@ -123,7 +126,6 @@ std::string readContent(osgDB::InputStream& is, PrimitiveBatch::Content& content
     std::vector<std::uint32_t> ends;
     if (!readWords(is, block, bytes) || !readWords(is, ends, objects))
         return "its names are cut off";
-    swapWords(is, ends.data(), ends.size());
     if (!content.names.assign(std::string(block.begin(), block.end()), std::move(ends)))
         return "its names don't fit their lengths";
     return {};
@@ -154,13 +156,12 @@ std::string readText(osgDB::InputStream& is, PrimitiveBatch& batch, unsigned int
         for (unsigned int& channel : color)
             is >> channel;
         is.readWrappedString(primitive.name);
-        if (is.getException() || is.getInputIterator()->isFailed())
+        if (is.getException())
             return "object " + std::to_string(i) + " is cut off";
         primitive.shape = osgLabels::Shape(shape);
-        primitive.color.set(static_cast<unsigned char>(color[0]),
-                            static_cast<unsigned char>(color[1]),
-                            static_cast<unsigned char>(color[2]),
-                            static_cast<unsigned char>(color[3]));
+        primitive.color.set(
+            static_cast<unsigned char>(color[0]), static_cast<unsigned char>(color[1]),
+            static_cast<unsigned char>(color[2]), static_cast<unsigned char>(color[3]));
         if (!batch.add(primitive))
             return "object " + std::to_string(i) + " can't be drawn";
     }
