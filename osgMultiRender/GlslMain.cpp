@@ -58,6 +58,10 @@ std::vector<Target> targetsOf(const std::vector<GlslOutput>& outputs,
             targets.push_back({location + element, output.type, output.variable + index});
         }
     }
+    targets.erase(std::remove_if(targets.begin(), targets.end(),
+                                 [&options](const Target& target)
+                                 { return target.location >= options.userLocations; }),
+                  targets.end());
     std::sort(targets.begin(), targets.end(),
               [](const Target& a, const Target& b) { return a.location < b.location; });
     return targets;

@@ -90,6 +90,7 @@ struct GlslMainOptions
 {
     int drawBuffers = 1;        ///< As many get gl_FragColor.
     int maximumDrawBuffers = 8; ///< GL_MAX_DRAW_BUFFERS of the context.
+    int userLocations = 8;      ///< Outputs at these locations and above are not written.
     std::vector<GlslSnippet> snippets;
 };
 

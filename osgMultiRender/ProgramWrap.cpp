@@ -132,7 +132,8 @@ std::uint64_t contentOf(const osg::Program& program)
     return hash ? hash : 1;
 }
 
-osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, std::string& error)
+osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, const GlslSnippet& snippet,
+                                       std::string& error)
 {
     std::vector<GlslShader> shaders;
     for (unsigned int i = 0; i < program.getNumShaders(); ++i)
@@ -175,8 +176,14 @@ osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, std::string&
     }
     if (hasFragment) // without one the fixed function shades what the vertex stage gives
     {
-        osg::ref_ptr<osg::Shader> main =
-            new osg::Shader(osg::Shader::FRAGMENT, wrapperMain(wrapped.version, wrapped.outputs));
+        GlslMainOptions options;
+        if (!snippet.statements.empty())
+        {
+            options.userLocations = 1; // those above are the snippet's
+            options.snippets.push_back(snippet);
+        }
+        osg::ref_ptr<osg::Shader> main = new osg::Shader(
+            osg::Shader::FRAGMENT, wrapperMain(wrapped.version, wrapped.outputs, options));
         main->setName("osgMultiRender main");
         result->addShader(main);
     }

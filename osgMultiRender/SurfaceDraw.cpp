@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The draw half of SurfaceFrame; SurfaceFrame.cpp collects and resolves.
+// The draw half of SurfaceFrame; SurfaceFrame.cpp resolves.
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osgMultiRender/ProgramWrap.h>
@@ -14,7 +14,9 @@ namespace osgMultiRender
 void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
 {
     osg::State& state = *renderInfo.getState();
-    const osg::StateSet* under = _pass->startRun();
+    if (count == 0)
+        return;
+    const osg::StateSet* under = mergeUnder();
     if (_withheld)
         state.pushStateSet(_withheld.get());
     if (under)
@@ -47,6 +49,26 @@ void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, s
         state.popStateSet();
 }
 
+/// What the passes want below the variants, as one StateSet: pushed apart, a leaf that follows
+/// without a change of state would not get what the other one has set meanwhile.
+const osg::StateSet* SurfaceFrame::mergeUnder()
+{
+    std::vector<const osg::StateSet*> stateSets;
+    for (const Pass& pass : _passes)
+        if (const osg::StateSet* stateSet = pass.pass->startRun())
+            stateSets.push_back(stateSet);
+    if (stateSets.size() < 2)
+        return stateSets.empty() ? nullptr : stateSets.front();
+    if (stateSets != _mergedFrom)
+    {
+        _mergedFrom = stateSets;
+        _merged = new osg::StateSet;
+        for (const osg::StateSet* stateSet : stateSets)
+            _merged->merge(*stateSet);
+    }
+    return _merged.get();
+}
+
 void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
                                 const std::function<bool(const SurfaceItem&)>& select)
 {
@@ -59,7 +81,8 @@ void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet
             if (!item.variant || !select(item))
                 return;
             selected.push_back(item);
-            if (hasProgram)
+            // What is drawn many times has its places from a program with its VertexSnippet.
+            if (hasProgram && !item.variant->getKey().instance)
                 selected.back().variant = nullptr;
         });
     state.pushStateSet(&over);
@@ -91,8 +114,11 @@ void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
         const auto* program = state.getLastAppliedProgramObject();
         if (!program || program->getProgram() != variant->getProgram())
             reportFailure(state, *variant);
-        else if (variant->getKey().kit)
-            _pass->apply(renderInfo, *variant, item.number);
+        else
+            for (const Pass& pass : _passes)
+                if (pass.isLight() ? variant->getKey().kit : variant->getKey().output)
+                    pass.pass->apply(renderInfo, *variant, leaf,
+                                     item.numbers[std::size_t(pass.pass->getRole())]);
     }
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();
@@ -113,7 +139,6 @@ void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
 void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
 {
     Plan plan;
-    plan.kit = std::string(_group->libraryName()) + "::" + _group->className();
     if (const osg::FrameStamp* stamp = renderInfo.getState()->getFrameStamp())
         plan.frame = stamp->getFrameNumber();
     unsigned int drawn = 0, fixed = 0, failed = 0;
@@ -157,8 +182,13 @@ void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
     plan.counts["states"] = static_cast<double>(states);
     plan.counts["programs.compiledThisFrame"] = _compiled;
     plan.counts["programs.compileMilliseconds"] = compileMilliseconds;
-    _pass->fillPlan(plan);
-    _group->setPlan(_stage->getCamera(), std::move(plan));
+    for (const Pass& pass : _passes)
+    {
+        Plan own = plan;
+        own.kit = std::string(pass.group->libraryName()) + "::" + pass.group->className();
+        pass.pass->fillPlan(own);
+        pass.group->setPlan(_stage->getCamera(), std::move(own));
+    }
 }
 
 } // namespace osgMultiRender

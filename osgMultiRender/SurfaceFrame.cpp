@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
+// The resolving half of SurfaceFrame; SurfaceCollect.cpp culls, SurfaceDraw.cpp draws.
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osgMultiRender/ProgramWrap.h>
 #include <osgMultiRender/SurfaceSource.h>
+#include <osgMultiRender/VertexSnippet.h>
 #include <osgMultiRender/WithheldLights.h>
 
 #include <osg/GLExtensions>
-#include <osg/Geometry>
 #include <osg/Notify>
-#include <osg/Timer>
-#include <osgUtil/PositionalStateContainer>
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 namespace osgMultiRender
 {
@@ -20,252 +20,32 @@ namespace osgMultiRender
 namespace
 {
 
-/// Stands in a bin of the view for leaves of the private stage.
-///
-/// Draws the leaf number `single` of a bin, or the whole bin. Counts as one dynamic leaf if any
-/// that it stands for is dynamic, and the leaves themselves are drawn without counting: so the
-/// update may go on exactly when the last pass has been drawn, however many passes there are.
-class ProxyLeaf : public osgUtil::RenderLeaf
-{
-public:
-    static constexpr std::size_t All = ~std::size_t(0);
-
-    ProxyLeaf(SurfaceFrame& frame, std::size_t bin, std::size_t single, osg::Drawable* drawable,
-              const osgUtil::RenderLeaf& like)
-        : osgUtil::RenderLeaf(drawable, like._projection.get(), like._modelview.get()),
-          _frame(&frame), _bin(bin), _single(single)
-    {
-        if (single != All)
-        {
-            _depth = like._depth;
-            _traversalOrderNumber = like._traversalOrderNumber;
-            _dynamic = like._dynamic;
-        }
-        else
-            for (const osgUtil::RenderLeaf* leaf : frame.getLeaves(bin))
-                _dynamic = _dynamic || leaf->_dynamic;
-        _dynamic = _dynamic || frame.getPass().isDynamic();
-    }
-
-    void render(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf* previous) override
-    {
-        osg::State& state = *renderInfo.getState();
-        if (state.getAbortRendering())
-            return;
-        if (previous)
-            osgUtil::StateGraph::moveToRootStateGraph(state, previous->_parent->_parent);
-        if (_single == All)
-            _frame->drawBin(renderInfo, _bin);
-        else
-            _frame->drawLeaf(renderInfo, _bin, _single);
-        _frame->proxyDrawn(renderInfo);
-        _frame = nullptr; // the leaf may be kept longer
-        // The next leaf starts from our StateGraph.
-        osgUtil::StateGraph::moveStateGraph(state, nullptr, _parent->_parent);
-        if (_dynamic)
-            state.decrementDynamicObjectCount();
-    }
-
-private:
-    osg::ref_ptr<SurfaceFrame> _frame;
-    std::size_t _bin;
-    std::size_t _single;
-};
-
-/// What viewer statistics see of a bin: the primitives of all its leaves.
-class BinDrawable : public osg::Drawable
-{
-public:
-    BinDrawable(SurfaceFrame& frame, std::size_t bin) : _frame(&frame), _bin(bin) {}
-    bool supports(const osg::PrimitiveFunctor&) const override { return true; }
-    void accept(osg::PrimitiveFunctor& functor) const override
-    {
-        osg::ref_ptr<SurfaceFrame> frame;
-        if (_frame.lock(frame)) // not drawn yet
-            for (const osgUtil::RenderLeaf* leaf : frame->getLeaves(_bin))
-                leaf->_drawable->accept(functor);
-    }
-
-private:
-    osg::observer_ptr<SurfaceFrame> _frame;
-    std::size_t _bin;
-};
-
-/// The StateSet of the leaf's path that asked for the bin, or null.
-const osg::StateSet* askedForBin(const osgUtil::RenderLeaf& leaf, int number)
-{
-    for (const osgUtil::StateGraph* graph = leaf._parent; graph; graph = graph->_parent)
-    {
-        const osg::StateSet* stateSet = graph->getStateSet();
-        if (stateSet && stateSet->useRenderBinDetails() && stateSet->getBinNumber() == number)
-            return stateSet;
-    }
-    return nullptr;
-}
-
-const osgUtil::RenderLeaf* anyLeafOf(const osgUtil::RenderBin& bin)
-{
-    for (const osgUtil::StateGraph* graph :
-         const_cast<osgUtil::RenderBin&>(bin).getStateGraphList())
-        if (!graph->_leaves.empty())
-            return graph->_leaves.front().get();
-    for (const auto& [number, inner] : const_cast<osgUtil::RenderBin&>(bin).getRenderBinList())
-        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
-            return leaf;
-    return nullptr;
-}
-
 bool byOrder(const SurfaceItem& a, const SurfaceItem& b)
 {
-    return a.order < b.order;
-}
-
-bool isOrdered(const osgUtil::RenderBin& bin)
-{
-    return bin.getSortMode() != osgUtil::RenderBin::SORT_BY_STATE &&
-           bin.getSortMode() != osgUtil::RenderBin::SORT_BY_STATE_THEN_FRONT_TO_BACK;
+    return a.diverted != b.diverted ? a.diverted : a.order < b.order;
 }
 
 } // namespace
 
-SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
-                           osgUtil::RenderStage& stage)
-    : osg::Referenced(true), _group(&group), _bin(&bin), _stage(bin.getStage()), _private(&stage),
-      _pass(group.createPass())
+unsigned int SurfaceFrame::passesOf(const osgUtil::StateGraph* graph) const
 {
-    // Cameras nested in the subgraph take these from the stage that they find.
-    _private->setPositionalStateContainer(_stage->getPositionalStateContainer());
-    _private->setInheritedPositionalStateContainer(_stage->getInheritedPositionalStateContainer());
-    _private->setInheritedPositionalStateContainerMatrix(
-        _stage->getInheritedPositionalStateContainerMatrix());
-    _private->setViewport(_stage->getViewport());
-    _private->setInitialViewMatrix(_stage->getInitialViewMatrix());
-    _private->setDrawBuffer(_stage->getDrawBuffer(), _stage->getDrawBufferApplyMask());
-    _private->setReadBuffer(_stage->getReadBuffer(), _stage->getReadBufferApplyMask());
-    _private->setClearMask(_stage->getClearMask());
-    _private->setClearColor(_stage->getClearColor());
-    _private->setClearDepth(_stage->getClearDepth());
-    _private->setClearStencil(_stage->getClearStencil());
-    _private->setClearAccum(_stage->getClearAccum());
-    _private->setColorMask(_stage->getColorMask());
-    _private->setCamera(_stage->getCamera());
-}
-
-SurfaceFrame::~SurfaceFrame() = default;
-
-std::vector<osg::ref_ptr<osgUtil::RenderLeaf>>
-SurfaceFrame::insertProxies(osgUtil::StateGraph& graph)
-{
-    for (const auto& [order, stage] : _private->getPreRenderList())
-        _stage->addPreRenderStage(stage.get(), order);
-    for (const auto& [order, stage] : _private->getPostRenderList())
-        _stage->addPostRenderStage(stage.get(), order);
-    // What ClearNodes in the subgraph set.
-    _stage->setClearColor(_private->getClearColor());
-    _stage->setClearMask(_private->getClearMask());
-    mirror(graph, *_private, *_bin);
-    return std::move(_made);
-}
-
-void SurfaceFrame::addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy)
-{
-    graph.addLeaf(proxy);
-    _made.push_back(proxy);
-    ++_proxies;
-}
-
-void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
-                          osgUtil::RenderBin& to)
-{
-    std::vector<osgUtil::RenderLeaf*> leaves;
-    for (osgUtil::StateGraph* graph : from.getStateGraphList())
-        for (const auto& leaf : graph->_leaves)
-            leaves.push_back(leaf.get());
-    if (!leaves.empty())
+    unsigned int passes = 0;
+    for (std::size_t i = 0; i < _passes.size(); ++i)
     {
-        _bins.push_back(std::move(leaves));
-        const std::size_t bin = _bins.size() - 1;
-        const auto* stateSet = _group->getProxyStateSet(bin);
-        osgUtil::StateGraph* graph = proxies.find_or_insert(stateSet);
-        if (graph->leaves_empty())
-            to.addStateGraph(graph);
-        if (isOrdered(to))
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-                addProxy(*graph, new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(),
-                                               *_bins[bin][i]));
-        else
-            addProxy(*graph, new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
-                                           *_bins[bin].front()));
-        _isOrdered.push_back(isOrdered(to));
+        bool inside = !_passes[i].scope;
+        for (const osgUtil::StateGraph* g = graph; g && !inside; g = g->_parent)
+            inside = g->getStateSet() == _passes[i].scope;
+        passes |= inside ? 1u << i : 0u;
     }
-    for (const auto& [number, inner] : from.getRenderBinList())
-        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
-        {
-            const osg::StateSet* asked = askedForBin(*leaf, number);
-            // A bin that does not nest belongs to the stage of the view, wherever the group lies.
-            const bool escapes = &from == _private.get() && asked && !asked->getNestRenderBins();
-            osgUtil::RenderBin& outer = escapes ? *_stage : to;
-            mirror(proxies, *inner,
-                   *outer.find_or_insert(number, asked ? asked->getBinName() : "RenderBin"));
-        }
+    return passes;
 }
 
-void SurfaceFrame::forEachLight(
-    const std::function<void(const osg::Light&, const osg::Matrix*, bool isHeadlight)>& f) const
+LightingMode SurfaceFrame::lightingOf(unsigned int passes) const
 {
-    const auto visit = [&f](osgUtil::PositionalStateContainer* container, const osg::Matrix* post)
-    {
-        if (!container)
-            return;
-        const auto give = [&](const osg::Light& light, const osg::RefMatrix* matrix)
-        {
-            if (!post)
-                return f(light, matrix, !matrix);
-            const osg::Matrix product = matrix ? *matrix * *post : *post;
-            f(light, &product, !matrix);
-        };
-        for (const auto& [attribute, matrix] : container->getAttrMatrixList())
-        {
-            const osg::StateAttribute* any = attribute.get();
-            if (auto* light = dynamic_cast<const osg::Light*>(any))
-                give(*light, matrix.get());
-            else if (auto* withheld = dynamic_cast<const WithheldLights*>(any))
-                for (const WithheldLights::Positioned& entry : withheld->getLights())
-                    give(*entry.light, entry.matrix.get());
-        }
-    };
-    visit(_stage->getInheritedPositionalStateContainer(),
-          &_stage->getInheritedPositionalStateContainerMatrix());
-    visit(_stage->getPositionalStateContainer(), nullptr);
-}
-
-osg::BoundingBoxd SurfaceFrame::getBounds(const osg::Matrixd& matrix, bool& unbounded) const
-{
-    // Leaves under one transform share its matrix: their boxes are joined before they are
-    // transformed.
-    std::unordered_map<const osg::RefMatrix*, osg::BoundingBox> local;
-    unbounded = false;
-    for (const auto& bin : _bins)
-        for (const osgUtil::RenderLeaf* leaf : bin)
-        {
-            const osg::BoundingBox& box = leaf->_drawable->getBoundingBox();
-            const osg::Geometry* geometry = leaf->_drawable->asGeometry();
-            if (geometry &&
-                (!geometry->getVertexArray() || !geometry->getVertexArray()->getNumElements()))
-                continue; // draws nothing
-            if (box.valid())
-                local[leaf->_modelview.get()].expandBy(box);
-            else
-                unbounded = true;
-        }
-    osg::BoundingBoxd bounds;
-    for (const auto& [modelview, box] : local)
-    {
-        const osg::Matrixd toFrame = modelview ? osg::Matrixd(*modelview) * matrix : matrix;
-        for (unsigned int corner = 0; corner < 8; ++corner)
-            bounds.expandBy(osg::Vec3d(box.corner(corner)) * toFrame);
-    }
-    return bounds;
+    for (std::size_t i = 0; i < _passes.size(); ++i)
+        if (_passes[i].isLight() && (passes & (1u << i)))
+            return _passes[i].pass->getLighting();
+    return LightingMode::Vertex;
 }
 
 const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
@@ -281,18 +61,27 @@ const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
     return _states.emplace(graph, std::move(state)).first->second;
 }
 
-SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Program* program)
+SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Program* program,
+                                        const std::string* instance)
 {
     osg::ref_ptr<SurfaceVariant>& variant = _variants[key];
     if (!variant)
     {
+        std::string kit = glslVersionLine(_languageVersion);
+        for (const Pass& pass : _passes)
+            kit += pass.group->className();
         bool made = false;
         variant = SurfaceVariantCache::instance().get(
-            _group->className() + std::string(" ") + glslVersionLine(_languageVersion), key,
+            kit, key,
             [&]
             {
-                return program ? new SurfaceVariant(key, *program)
-                               : new SurfaceVariant(key, _pass->makeSnippet(key), _languageVersion);
+                SurfaceSnippet snippet;
+                for (const Pass& pass : _passes)
+                    if (pass.isLight() ? !program : key.output != 0)
+                        snippet += pass.pass->makeSnippet(key);
+                return program ? new SurfaceVariant(key, snippet, *program)
+                               : new SurfaceVariant(key, snippet, instance ? *instance : "",
+                                                    _languageVersion);
             },
             made);
         _compiled += made;
@@ -309,7 +98,7 @@ SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
     {
         SurfaceKey key;
         key.program = contentOf(program);
-        found->second = variantOf(key, &program);
+        found->second = variantOf(key, &program, nullptr);
     }
     return found->second;
 }
@@ -322,16 +111,23 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
     if (!isNew)
         return surface;
     surface.state = &stateOf(graph);
-    std::string beyond = makeSurfaceKey(*surface.state, _pass->getLighting(), _lights,
+    surface.passes = passesOf(graph);
+    std::string beyond = makeSurfaceKey(*surface.state, lightingOf(surface.passes), _lights,
                                         renderInfo.getContextID(), surface.key);
     auto* program = static_cast<const osg::Program*>(surface.state->get(SurfaceState::Program));
-    if (program && program->getNumShaders() > 0 && !surface.state->isProgramProtected())
+    if (auto* snippet = dynamic_cast<const VertexSnippet*>(program))
+    {
+        surface.key.instance = snippet->getContent();
+        surface.instance = &snippet->getText();
+    }
+    else if (program && program->getNumShaders() > 0 && !surface.state->isProgramProtected())
     {
         SurfaceVariant* wrapper = wrapperOf(*program);
         if (wrapper->getProgram() && !wrapper->failed)
         {
             surface.key = wrapper->getKey();
             surface.variant = wrapper;
+            surface.program = program;
             return surface;
         }
         // What GL refuses shows the fixed-function look; what only we can't wrap, its own program.
@@ -348,7 +144,8 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
     return surface;
 }
 
-void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceItem& item)
+void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ordered,
+                           SurfaceItem& item)
 {
     item.leaf = &leaf;
     item.state = surface.state;
@@ -357,17 +154,22 @@ void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceI
         ++surface.beyond->second;
         return;
     }
-    if (!surface.key.program &&
-        (surface.key.lighting == LightingMode::Pixel || _pass->classifiesUnlit()))
+    SurfaceKey& key = surface.key;
+    const std::uint32_t kit = std::exchange(key.kit, 0), output = std::exchange(key.output, 0);
+    for (std::size_t i = 0; i < _passes.size(); ++i)
     {
-        const std::uint32_t kit = surface.key.kit;
-        surface.key.kit = 0;
-        _pass->classify(*surface.state, leaf, surface.key, item.number);
-        if (surface.key.kit != kit)
-            surface.variant = nullptr;
+        if (!(surface.passes & (1u << i)))
+            continue;
+        const Pass& pass = _passes[i];
+        const bool isLit = key.lighting == LightingMode::Pixel || pass.pass->classifiesUnlit();
+        if (!pass.isLight() || (isLit && !key.program))
+            pass.pass->classify(*surface.state, leaf, ordered, key,
+                                item.numbers[std::size_t(pass.pass->getRole())]);
     }
+    if (key.kit != kit || key.output != output)
+        surface.variant = nullptr;
     if (!surface.variant)
-        surface.variant = variantOf(surface.key, nullptr);
+        surface.variant = variantOf(key, surface.program, surface.instance);
     item.variant = surface.variant;
 }
 
@@ -385,58 +187,79 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
     }
     const auto* gl = state.get<osg::GLExtensions>();
     _languageVersion = gl->glslLanguageVersion;
-    // Some drivers tell of a newer language than their version of GL goes with.
-    const float version = std::min(gl->glVersion, _languageVersion);
     _items.resize(_bins.size());
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
         _items[bin].resize(_bins[bin].size());
-    if (version < 3.295f)
-    {
-        static std::once_flag said;
-        std::call_once(said,
-                       [&]
-                       {
-                           OSG_WARN << _group->libraryName() << "::" << _group->className()
-                                    << ": OpenGL " << gl->glVersion << " with GLSL "
-                                    << _languageVersion
-                                    << " is older than 3.3, so models keep their fixed-function "
-                                       "look; a driver with "
-                                       "the OpenGL 3.3 compatibility profile is needed"
-                                    << std::endl;
-                       });
-        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-            {
-                _items[bin][i].leaf = _bins[bin][i];
-                ++_beyond["OpenGL older than 3.3"];
-            }
-    }
+    _diverted.assign(_bins.size(), 0);
+    // Some drivers tell of a newer language than their version of GL goes with.
+    const bool isSupported = std::min(gl->glVersion, _languageVersion) >= 3.295f;
+    if (isSupported)
+        classifyAll(renderInfo);
     else
-    {
-        forEachLight(
-            [this](const osg::Light& light, const osg::Matrix*, bool)
-            {
-                if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
-                    _lights[light.getLightNum()] = &light;
-            });
-        _pass->begin(renderInfo, *this);
-        for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        sayTooOld(gl->glVersion);
+    withholdLights();
+    sortItems();
+    if (isSupported)
+        for (const Pass& pass : _passes)
+            pass.pass->drawBefore(renderInfo, *this);
+    writePlan(renderInfo);
+}
+
+void SurfaceFrame::sayTooOld(float glVersion)
+{
+    static std::once_flag said;
+    std::call_once(said,
+                   [&]
+                   {
+                       OSG_WARN << _group->libraryName() << "::" << _group->className()
+                                << ": OpenGL " << glVersion << " with GLSL " << _languageVersion
+                                << " is older than 3.3, so models keep their fixed-function look; "
+                                   "a driver with the OpenGL 3.3 compatibility profile is needed"
+                                << std::endl;
+                   });
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        for (std::size_t i = 0; i < _bins[bin].size(); ++i)
         {
-            Surface* surface = nullptr;
-            const osgUtil::StateGraph* graph = nullptr;
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-            {
-                osgUtil::RenderLeaf& leaf = *_bins[bin][i];
-                if (leaf._parent != graph) // leaves of one StateGraph follow each other
-                {
-                    graph = leaf._parent;
-                    surface = &surfaceOf(renderInfo, graph);
-                }
-                resolve(*surface, leaf, _items[bin][i]);
-            }
+            _items[bin][i].leaf = _bins[bin][i];
+            ++_beyond["OpenGL older than 3.3"];
         }
-        _pass->end(renderInfo);
+}
+
+void SurfaceFrame::classifyAll(osg::RenderInfo& renderInfo)
+{
+    forEachLight(
+        [this](const osg::Light& light, const osg::Matrix*, bool)
+        {
+            if (light.getLightNum() >= 0 && light.getLightNum() < int(_lights.size()))
+                _lights[light.getLightNum()] = &light;
+        });
+    for (const Pass& pass : _passes)
+    {
+        pass.pass->begin(renderInfo, *this);
+        if (pass.pass->getRole() == SurfaceRole::Output)
+            _outputPass = pass.pass.get();
     }
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+    {
+        Surface* surface = nullptr;
+        const osgUtil::StateGraph* graph = nullptr;
+        for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+        {
+            osgUtil::RenderLeaf& leaf = *_bins[bin][i];
+            if (leaf._parent != graph) // leaves of one StateGraph follow each other
+            {
+                graph = leaf._parent;
+                surface = &surfaceOf(renderInfo, graph);
+            }
+            resolve(*surface, leaf, _isOrdered[bin], _items[bin][i]);
+        }
+    }
+    for (const Pass& pass : _passes)
+        pass.pass->end(renderInfo);
+}
+
+void SurfaceFrame::withholdLights()
+{
     std::set<unsigned int> mentioned;
     const void* last = nullptr;
     for (const auto& [graph, surfaceState] : _states)
@@ -446,36 +269,55 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
             for (unsigned int number : surfaceState.getExtraLights(false))
                 mentioned.insert(number);
         }
-    if (!mentioned.empty())
+    if (mentioned.empty())
+        return;
+    osg::ref_ptr<osg::StateSet> withheld = new osg::StateSet;
+    for (unsigned int number : mentioned)
     {
-        osg::ref_ptr<osg::StateSet> withheld = new osg::StateSet;
-        for (unsigned int number : mentioned)
-        {
-            withheld->setMode(GL_LIGHT0 + number,
-                              osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
-            withheld->setAttribute(new WithheldLights(number), osg::StateAttribute::OVERRIDE);
-        }
-        _withheld = withheld;
+        withheld->setMode(GL_LIGHT0 + number,
+                          osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
+        withheld->setAttribute(new WithheldLights(number), osg::StateAttribute::OVERRIDE);
     }
+    _withheld = withheld;
+}
+
+void SurfaceFrame::sortItems()
+{
     std::unordered_map<const SurfaceVariant*, std::uint32_t> orderOf;
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
     {
         if (_isOrdered[bin])
             continue;
         for (SurfaceItem& item : _items[bin])
+        {
             item.order = orderOf.emplace(item.variant, std::uint32_t(orderOf.size())).first->second;
+            item.diverted =
+                _outputPass && item.variant && !item.variant->failed && _outputPass->diverts(item);
+            _diverted[bin] += item.diverted;
+        }
         if (!std::is_sorted(_items[bin].begin(), _items[bin].end(), byOrder))
             std::stable_sort(_items[bin].begin(), _items[bin].end(), byOrder);
     }
-    if (version >= 3.295f)
-        _pass->drawBefore(renderInfo, *this);
-    writePlan(renderInfo);
 }
 
 void SurfaceFrame::proxyDrawn(osg::RenderInfo& renderInfo)
 {
     if (--_proxies == 0)
-        _pass->drawn(renderInfo);
+        for (const Pass& pass : _passes)
+            pass.pass->drawn(renderInfo);
+}
+
+void SurfaceFrame::forEachLeaf(
+    const SurfacePass& pass,
+    const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const
+{
+    const auto found = std::find_if(_passes.begin(), _passes.end(),
+                                    [&](const Pass& p) { return p.pass.get() == &pass; });
+    const unsigned int bit = 1u << (found - _passes.begin());
+    for (std::size_t bin = 0; bin < _bins.size(); ++bin)
+        for (const osgUtil::RenderLeaf* leaf : _bins[bin])
+            if (passesOf(leaf->_parent) & bit)
+                f(*leaf, _isOrdered[bin]);
 }
 
 void SurfaceFrame::forEachItem(const std::function<void(const SurfaceItem&)>& f) const
@@ -488,7 +330,10 @@ void SurfaceFrame::forEachItem(const std::function<void(const SurfaceItem&)>& f)
 void SurfaceFrame::drawBin(osg::RenderInfo& renderInfo, std::size_t bin)
 {
     prepare(renderInfo);
-    draw(renderInfo, _items[bin].data(), _items[bin].size());
+    const std::size_t diverted = _diverted[bin];
+    if (diverted)
+        _outputPass->divert(renderInfo, [&] { draw(renderInfo, _items[bin].data(), diverted); });
+    draw(renderInfo, _items[bin].data() + diverted, _items[bin].size() - diverted);
 }
 
 void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::size_t leaf)

@@ -19,10 +19,11 @@ namespace osgMultiRender
 struct SurfaceItem
 {
     osgUtil::RenderLeaf* leaf = nullptr;
-    SurfaceVariant* variant = nullptr;   ///< Null: the leaf keeps its own state.
-    std::uint32_t number = 0;            ///< The kit's number of the leaf.
-    std::uint32_t order = 0;             ///< Of the variant, by first appearance in the frame.
-    const SurfaceState* state = nullptr; ///< Of the leaf; null below OpenGL 3.3.
+    SurfaceVariant* variant = nullptr;      ///< Null: the leaf keeps its own state.
+    std::array<std::uint32_t, 2> numbers{}; ///< The passes' numbers of the leaf, by role.
+    bool diverted = false;                  ///< Drawn through SurfacePass::divert().
+    std::uint32_t order = 0;                ///< Of the variant, by first appearance in the frame.
+    const SurfaceState* state = nullptr;    ///< Of the leaf; null below OpenGL 3.3.
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -36,8 +37,13 @@ public:
     /// `stage` collects the subgraph; the frame owns it.
     SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin, osgUtil::RenderStage& stage);
 
-    SurfacePass& getPass() { return *_pass; }
+    /// The pass of the group that draws.
+    SurfacePass& getOwnPass() { return *_passes.front().pass; }
     SurfaceGroup& getGroup() { return *_group; }
+    /// Takes the pass of a nested group, for the leaves below `scope`. Null where the frame has one
+    /// with this role already.
+    SurfacePass* addPass(SurfaceGroup& group, const osg::StateSet& scope);
+    bool isDynamic() const;
 
     /// The stage to traverse the subgraph with.
     osgUtil::RenderStage& getPrivateStage() { return *_private; }
@@ -66,6 +72,10 @@ public:
     /// To be called once by each proxy when it has been drawn.
     void proxyDrawn(osg::RenderInfo& renderInfo);
 
+    /// Calls `f` for each leaf of the scope of `pass`, and tells whether it lies in a bin sorted by
+    /// depth or traversal.
+    void forEachLeaf(const SurfacePass& pass,
+                     const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const;
     /// Calls `f` for each leaf. Only from SurfacePass::end() on.
     void forEachItem(const std::function<void(const SurfaceItem&)>& f) const;
 
@@ -85,18 +95,36 @@ private:
     void addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy);
     void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
+    struct Pass
+    {
+        osg::ref_ptr<SurfaceGroup> group;
+        std::unique_ptr<SurfacePass> pass;
+        const osg::StateSet* scope = nullptr; ///< Null: all leaves.
+        bool isLight() const { return pass->getRole() == SurfaceRole::Light; }
+    };
     /// What the leaves of one StateGraph have in common.
     struct Surface
     {
+        unsigned int passes = 0;               ///< Bits of those in whose scope it lies.
+        const osg::Program* program = nullptr; ///< The model's own.
+        const std::string* instance = nullptr; ///< GLSL of a VertexSnippet.
         const SurfaceState* state = nullptr;
         SurfaceKey key;                    ///< With the kit bits of the last leaf.
         SurfaceVariant* variant = nullptr; ///< Of that key; null before it is looked up.
         std::pair<const std::string, unsigned int>* beyond = nullptr; ///< In _beyond.
     };
     Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph);
-    void resolve(Surface& surface, osgUtil::RenderLeaf& leaf, SurfaceItem& item);
+    unsigned int passesOf(const osgUtil::StateGraph* graph) const;
+    LightingMode lightingOf(unsigned int passes) const;
+    const osg::StateSet* mergeUnder();
+    void resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ordered, SurfaceItem& item);
+    void sayTooOld(float glVersion);
+    void classifyAll(osg::RenderInfo& renderInfo);
+    void withholdLights();
+    void sortItems();
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
-    SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program);
+    SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program,
+                              const std::string* instance);
     SurfaceVariant* wrapperOf(const osg::Program& program);
     void reportFailure(osg::State& state, SurfaceVariant& variant);
     void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
@@ -108,7 +136,11 @@ private:
     osg::ref_ptr<osgUtil::RenderBin> _bin;
     osg::ref_ptr<osgUtil::RenderStage> _stage;
     osg::ref_ptr<osgUtil::RenderStage> _private;
-    std::unique_ptr<SurfacePass> _pass;
+    std::vector<Pass> _passes;           ///< The group's own first.
+    SurfacePass* _outputPass = nullptr;  ///< The one with SurfaceRole::Output.
+    std::vector<std::size_t> _diverted;  ///< One a bin: so many of its first items.
+    osg::ref_ptr<osg::StateSet> _merged; ///< What several passes want below the variants.
+    std::vector<const osg::StateSet*> _mergedFrom;
     std::vector<std::vector<osgUtil::RenderLeaf*>> _bins;
     std::vector<bool> _isOrdered; ///< One a bin: by depth or traversal, one proxy a leaf.
     std::size_t _proxies = 0;     ///< Still to be drawn.

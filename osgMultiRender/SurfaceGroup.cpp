@@ -21,6 +21,8 @@ namespace
 /// A stage that belongs to a SurfaceGroup, so that a nested one sees that it is nested.
 class PrivateStage : public osgUtil::RenderStage
 {
+public:
+    SurfaceFrame* frame = nullptr; ///< Owns the stage.
 };
 
 /// Replaces the lights that GL does not know in a list of positioned attributes.
@@ -89,6 +91,16 @@ void SurfacePass::cull(osgUtil::CullVisitor&, SurfaceGroup&) {}
 
 void SurfacePass::drawBefore(osg::RenderInfo&, SurfaceFrame&) {}
 
+bool SurfacePass::diverts(const SurfaceItem&) const
+{
+    return false;
+}
+
+void SurfacePass::divert(osg::RenderInfo&, const std::function<void()>& draw)
+{
+    draw();
+}
+
 void SurfacePass::drawn(osg::RenderInfo&) {}
 
 SurfaceGroup::SurfaceGroup() = default;
@@ -104,9 +116,11 @@ void SurfaceGroup::traverse(osg::NodeVisitor& visitor)
 {
     auto* cullVisitor = visitor.asCullVisitor();
     if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR || !cullVisitor ||
-        !cullVisitor->getCurrentRenderBin() ||
-        dynamic_cast<PrivateStage*>(cullVisitor->getCurrentRenderBin()->getStage()))
+        !cullVisitor->getCurrentRenderBin())
         osg::Group::traverse(visitor);
+    else if (auto* outer =
+                 dynamic_cast<PrivateStage*>(cullVisitor->getCurrentRenderBin()->getStage()))
+        cullNested(*cullVisitor, *outer->frame);
     else
         cull(*cullVisitor);
 }
@@ -114,16 +128,29 @@ void SurfaceGroup::traverse(osg::NodeVisitor& visitor)
 void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
 {
     osgUtil::RenderBin* bin = visitor.getCurrentRenderBin();
-    osg::ref_ptr<SurfaceFrame> frame = new SurfaceFrame(*this, *bin, *new PrivateStage);
+    osg::ref_ptr<PrivateStage> stage = new PrivateStage;
+    osg::ref_ptr<SurfaceFrame> frame = new SurfaceFrame(*this, *bin, *stage);
+    stage->frame = frame.get();
     osg::ref_ptr<LightGate> gate = new LightGate(*bin->getStage());
     bin->getStage()->addPreRenderStage(gate, std::numeric_limits<int>::min());
     osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     osg::Group::traverse(visitor);
-    frame->getPass().cull(visitor, *this);
+    frame->getOwnPass().cull(visitor, *this);
     visitor.setCurrentRenderBin(bin);
     visitor.popStateSet();
     gate->keep(frame->insertProxies(proxies));
+}
+
+void SurfaceGroup::cullNested(osgUtil::CullVisitor& visitor, SurfaceFrame& frame)
+{
+    const osg::StateSet* scope = nthStateSet(_nested, 0);
+    visitor.pushStateSet(scope);
+    SurfacePass* pass = frame.addPass(*this, *scope);
+    osg::Group::traverse(visitor);
+    if (pass)
+        pass->cull(visitor, *this);
+    visitor.popStateSet();
 }
 
 osgUtil::StateGraph& SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)

@@ -8,6 +8,7 @@
 #include <osg/Group>
 #include <osg/observer_ptr>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -24,12 +25,22 @@ namespace osgMultiRender
 
 class SurfaceFrame;
 class SurfaceGroup;
+struct SurfaceItem;
+
+/// What a pass contributes. Of nested kits with the same role the outermost one counts.
+enum class SurfaceRole : std::uint8_t
+{
+    Light, ///< How surfaces are lit: SurfaceKey::kit.
+    Output ///< What is written beside and after the colour: SurfaceKey::output.
+};
 
 /// A kit's part in the draw of one view of one frame. Lives in the draw thread.
 class OSGMULTIRENDER_EXPORT SurfacePass
 {
 public:
     virtual ~SurfacePass();
+
+    virtual SurfaceRole getRole() const { return SurfaceRole::Light; }
 
     /// In the cull thread, when the subgraph has been traversed; `visitor` still stands at `group`.
     virtual void cull(osgUtil::CullVisitor& visitor, SurfaceGroup& group);
@@ -39,13 +50,16 @@ public:
 
     // The rest is called in the draw thread.
 
-    /// Where light is evaluated this frame.
-    virtual LightingMode getLighting() const = 0;
+    /// Where light is evaluated this frame. Asked of the pass with SurfaceRole::Light; without one
+    /// per vertex.
+    virtual LightingMode getLighting() const { return LightingMode::Vertex; }
     /// Collects what the frame needs; called once before anything else.
     virtual void begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame) = 0;
-    /// Says which kit bits a leaf's key gets, and gives the leaf a number for apply(). Only for
-    /// leaves whose key has LightingMode::Pixel, and for others if classifiesUnlit().
-    virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf,
+    /// Says which bits of its own a leaf's key gets, and gives the leaf a number for apply().
+    /// `ordered` tells that the leaf lies in a bin sorted by depth or traversal. With
+    /// SurfaceRole::Light only for leaves whose key has LightingMode::Pixel, and for others without
+    /// a program of their own if classifiesUnlit().
+    virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, bool ordered,
                           SurfaceKey& key, std::uint32_t& number) = 0;
     virtual bool classifiesUnlit() const { return false; }
     /// After the last classify().
@@ -53,17 +67,24 @@ public:
     /// After end(), before the first leaf is drawn: what is drawn elsewhere first. Leaves the
     /// framebuffer, the viewport and osg::State's stack as they were.
     virtual void drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame);
+    /// Whether the leaf, of a bin sorted by state, is drawn through divert(). After end().
+    virtual bool diverts(const SurfaceItem& item) const;
+    /// Draws the diverted leaves of one bin: sets a target of its own, calls `draw`, puts the
+    /// result into the view. Leaves the framebuffer, the viewport and osg::State's stack as they
+    /// were.
+    virtual void divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw);
     /// The last leaf of the frame has been drawn.
     virtual void drawn(osg::RenderInfo& renderInfo);
-    /// The GLSL that a key with these kit bits needs.
+    /// The GLSL that a key with these bits needs; empty for a key without any that are the pass's.
     virtual SurfaceSnippet makeSnippet(const SurfaceKey& key) const = 0;
     /// Called before each run of leaves: since the last one other passes may have used the same
     /// programs and textures. Returns what is pushed under the variants during the run; null for
     /// none.
     virtual const osg::StateSet* startRun() = 0;
-    /// Called with the variant's program in use, before the leaf is drawn.
+    /// Called with the variant's program in use, before the leaf is drawn, where the key has bits
+    /// of the pass.
     virtual void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
-                       std::uint32_t number) = 0;
+                       const osgUtil::RenderLeaf& leaf, std::uint32_t number) = 0;
     virtual void fillPlan(Plan& plan) const = 0;
 };
 
@@ -72,8 +93,9 @@ public:
 /// Under a cull traversal it collects the subgraph in a stage of its own and leaves one proxy a
 /// render bin in the bins of the view, so that the order among siblings stays; to every other
 /// visitor it is a plain group. The subgraph's StateSets are never written, state above the group
-/// and changes at run time count. Nested in another SurfaceGroup it is a plain group: the outermost
-/// draws. Requires GL 3.3 compatibility; below that it says so once and the fixed function draws.
+/// and changes at run time count. Nested in another SurfaceGroup it hands that one its pass for its
+/// own leaves: one collection and one program a variant, whichever kit is the outer one. Requires
+/// GL 3.3 compatibility; below that it says so once and the fixed function draws.
 class OSGMULTIRENDER_EXPORT SurfaceGroup : public osg::Group, public Planned
 {
 public:
@@ -98,6 +120,7 @@ private:
     using StateSets = std::vector<osg::ref_ptr<osg::StateSet>>;
 
     void cull(osgUtil::CullVisitor& visitor);
+    void cullNested(osgUtil::CullVisitor& visitor, SurfaceFrame& frame);
     /// Pushes a StateSet that keeps the subgraph's leaves apart from those of siblings, and of this
     /// group itself where the view has met it before (under another parent). Returns where proxies
     /// belong: at the root, so that no state of the subgraph is left to OSG when they are drawn.
@@ -111,6 +134,7 @@ private:
 
     mutable std::mutex _mutex;
     StateSets _scopes;
+    StateSets _nested; ///< One: tells the leaves of this group from others of the outer one.
     StateSets _proxies;
     struct ViewPlan
     {

@@ -206,7 +206,8 @@ bool SurfaceKey::operator==(const SurfaceKey& other) const
            specular == other.specular && separateSpecular == other.separateSpecular &&
            colorMode == other.colorMode && colorSum == other.colorSum && flat == other.flat &&
            fog == other.fog && fogCoordinate == other.fogCoordinate && clip == other.clip &&
-           lights == other.lights && kit == other.kit && program == other.program;
+           lights == other.lights && kit == other.kit && output == other.output &&
+           program == other.program && instance == other.instance;
 }
 
 std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
@@ -218,7 +219,7 @@ std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
           std::uint64_t(key.separateSpecular), std::uint64_t(key.colorMode),
           std::uint64_t(key.colorSum), std::uint64_t(key.flat), std::uint64_t(key.fog),
           std::uint64_t(key.fogCoordinate), std::uint64_t(key.clip), std::uint64_t(key.kit),
-          key.program})
+          std::uint64_t(key.output), key.program, key.instance})
         hash.add(x);
     hash.addAll(key.lights);
     for (const TextureKey& texture : key.textures)
@@ -289,6 +290,9 @@ std::string toString(const SurfaceKey& key)
     flag(key.clip, "clip");
     if (key.kit)
         text << " kit=" << std::hex << key.kit;
+    if (key.output)
+        text << " output=" << std::hex << key.output;
+    flag(key.instance != 0, "instanced");
     const std::string words = text.str();
     return words.empty() ? "plain" : words.substr(1);
 }

@@ -134,8 +134,10 @@ struct OSGMULTIRENDER_EXPORT SurfaceKey
     std::uint8_t clip = 0;          ///< 1: a user clip plane is on.
     std::array<std::uint8_t, SurfaceState::MaxGLLights> lights{}; ///< LightType; vertex mode only.
     std::array<TextureKey, SurfaceState::MaxTextureUnits> textures{};
-    std::uint32_t kit = 0;     ///< What the kit's snippets depend on; its meaning is the kit's.
-    std::uint64_t program = 0; ///< Content of the model's own Program, 0 for none.
+    std::uint32_t kit = 0;      ///< What the snippet of the light pass depends on; its own meaning.
+    std::uint32_t output = 0;   ///< What the snippet of the output pass depends on.
+    std::uint64_t program = 0;  ///< Content of the model's own Program, 0 for none.
+    std::uint64_t instance = 0; ///< Content of a VertexSnippet, 0 for none.
 
     bool operator==(const SurfaceKey& other) const;
     bool operator!=(const SurfaceKey& other) const { return !(*this == other); }

@@ -44,6 +44,7 @@ std::string definesOf(const SurfaceKey& key)
     define(key.colorSum, "OSGMR_COLOR_SUM");
     define(key.fogCoordinate, "OSGMR_FOG_COORDINATE");
     define(key.clip, "OSGMR_CLIP");
+    define(key.instance, "OSGMR_INSTANCE");
     text << "#define OSGMR_COLOR_MODE " << int(key.colorMode) << "\n";
     text << "#define OSGMR_FLAT " << (key.flat ? "flat" : "smooth") << "\n";
     if (key.fog)
@@ -81,10 +82,10 @@ void writeTexCoord(std::ostream& text, unsigned int unit, const TextureKey& key)
     else if (key.generated)
     {
         const bool eye = key.generation == TextureKey::EyeLinear;
-        const char* from = eye ? "osgmr_eye4" : "gl_Vertex";
+        const char* from = eye ? "osgmr_eye4" : "OSGMR_VERTEX";
         const char* plane = eye ? "gl_EyePlane" : "gl_ObjectPlane";
         if (eye)
-            text << "        vec4 osgmr_eye4 = gl_ModelViewMatrix * gl_Vertex;\n";
+            text << "        vec4 osgmr_eye4 = gl_ModelViewMatrix * OSGMR_VERTEX;\n";
         text << "        vec4 generated = vec4(";
         for (unsigned int i = 0; i < 4; ++i)
             text << (i ? ", " : "") << "dot(" << from << ", " << plane << "STRQ"[i] << "[" << unit
@@ -259,7 +260,7 @@ std::string glslVersionLine(float languageVersion)
     return "#version " + std::to_string(version) + " compatibility\n";
 }
 
-SurfaceSource makeSurfaceSource(const SurfaceKey& key)
+SurfaceSource makeSurfaceSource(const SurfaceKey& key, const VertexParts& parts)
 {
     const std::string defines = definesOf(key);
     SurfaceSource source;
@@ -267,7 +268,8 @@ SurfaceSource makeSurfaceSource(const SurfaceKey& key)
                                          shaders::surface_vert);
     if (key.lighting == LightingMode::Vertex)
         source.vertex += lightsOf(key);
-    source.vertex += texCoordsOf(key) + "void main()\n{\n    osgmr_vertex();\n}\n";
+    source.vertex += texCoordsOf(key) + parts.instance + parts.text +
+                     "void main()\n{\n    osgmr_vertex();\n" + parts.statements + "}\n";
     source.fragment =
         defines +
         shaderText(osg::Shader::FRAGMENT, "osgMultiRender/surface.frag", shaders::surface_frag) +

@@ -21,8 +21,17 @@ struct SurfaceSource
 /// least 3.30.
 OSGMULTIRENDER_EXPORT std::string glslVersionLine(float languageVersion);
 
+/// GLSL that others add to the vertex stage.
+struct VertexParts
+{
+    std::string instance;   ///< Defines osgmr_instance(), see VertexSnippet; empty for none.
+    std::string text;       ///< Declarations before main().
+    std::string statements; ///< In main(), after gl_Position.
+};
+
 /// The surface function of `key`. Samplers are named osgmr_texture<unit>. The texts have no
 /// #version.
-OSGMULTIRENDER_EXPORT SurfaceSource makeSurfaceSource(const SurfaceKey& key);
+OSGMULTIRENDER_EXPORT SurfaceSource makeSurfaceSource(const SurfaceKey& key,
+                                                      const VertexParts& parts = {});
 
 } // namespace osgMultiRender

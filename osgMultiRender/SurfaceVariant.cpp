@@ -13,34 +13,46 @@ namespace osgMultiRender
 namespace
 {
 
-/// The main of a kit that wants nothing but the surface's colour.
-constexpr char colorMain[] = "layout(location = 0) out vec4 osgmr_out0;\n"
-                             "void main()\n{\n    osgmr_out0 = osgmr_surface();\n}\n";
-/// The main of a kit that writes something else.
-constexpr char outputMain[] =
-    "layout(location = 0) out vec4 osgmr_out0;\n"
-    "void main()\n{\n    osgmr_out0 = osgmr_output(osgmr_surface());\n}\n";
+std::string mainOf(const SurfaceSnippet& snippet)
+{
+    return "layout(location = 0) out vec4 osgmr_out0;\n" + snippet.fragment + snippet.output +
+           "void main()\n{\n    osgmr_out0 = " +
+           (snippet.output.empty() ? "osgmr_surface()" : "osgmr_output(osgmr_surface())") + ";\n" +
+           snippet.statements + "}\n";
+}
 
 } // namespace
 
+SurfaceSnippet& SurfaceSnippet::operator+=(const SurfaceSnippet& other)
+{
+    fragment += other.fragment;
+    output += other.output;
+    vertex += other.vertex;
+    vertexStatements += other.vertexStatements;
+    statements += other.statements;
+    samplers.insert(samplers.end(), other.samplers.begin(), other.samplers.end());
+    attributes.insert(attributes.end(), other.attributes.begin(), other.attributes.end());
+    return *this;
+}
+
 SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
-                               float languageVersion)
+                               const std::string& instance, float languageVersion)
     : osg::Referenced(true), _key(key), _program(new osg::Program), _stateSet(new osg::StateSet)
 {
     const std::string version = glslVersionLine(languageVersion);
-    const SurfaceSource source = makeSurfaceSource(key);
+    const SurfaceSource source =
+        makeSurfaceSource(key, {instance, snippet.vertex, snippet.vertexStatements});
     const std::string name = toString(key);
     osg::ref_ptr<osg::Shader> vertex =
         new osg::Shader(osg::Shader::VERTEX, version + source.vertex);
-    osg::ref_ptr<osg::Shader> fragment = new osg::Shader(
-        osg::Shader::FRAGMENT, version + source.fragment + snippet.fragment + snippet.output +
-                                   (snippet.output.empty() ? colorMain : outputMain));
+    osg::ref_ptr<osg::Shader> fragment =
+        new osg::Shader(osg::Shader::FRAGMENT, version + source.fragment + mainOf(snippet));
     vertex->setName("osgMultiRender vertex, " + name);
     fragment->setName("osgMultiRender fragment, " + name);
     _program->setName("osgMultiRender " + name);
     _program->addShader(vertex);
     _program->addShader(fragment);
-    finish();
+    finish(snippet);
     // The fixed function ignores these modes, a program does not.
     const bool twoSided = key.twoSided && key.lighting == LightingMode::Vertex;
     _stateSet->setMode(GL_VERTEX_PROGRAM_TWO_SIDE,
@@ -52,20 +64,23 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
         if (key.textures[unit].target)
             _stateSet->addUniform(new osg::Uniform(("osgmr_texture" + std::to_string(unit)).c_str(),
                                                    static_cast<int>(unit)));
-    for (const auto& [sampler, unit] : snippet.samplers)
-        _stateSet->addUniform(new osg::Uniform(sampler.c_str(), unit));
 }
 
-SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const osg::Program& program)
+SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
+                               const osg::Program& program)
     : osg::Referenced(true), _key(key), _stateSet(new osg::StateSet)
 {
-    _program = wrapProgram(program, _error);
+    _program = wrapProgram(program, {snippet.fragment, snippet.statements}, _error);
     if (_program)
-        finish();
+        finish(snippet);
 }
 
-void SurfaceVariant::finish()
+void SurfaceVariant::finish(const SurfaceSnippet& snippet)
 {
+    for (const auto& [sampler, unit] : snippet.samplers)
+        _stateSet->addUniform(new osg::Uniform(sampler.c_str(), unit));
+    for (const auto& [name, location] : snippet.attributes)
+        _program->addBindAttribLocation(name, location);
     // Several graphics contexts draw it, each in a thread of its own.
     _program->setThreadSafeRefUnref(true);
     _stateSet->setThreadSafeRefUnref(true);

@@ -22,17 +22,30 @@ struct SurfaceSnippet
     /// GLSL that defines vec4 osgmr_output(vec4 surface): what is written for a surface colour.
     /// Empty: the colour itself.
     std::string output;
-    std::vector<std::pair<std::string, int>> samplers; ///< Uniform name and texture unit.
+    /// GLSL of the vertex stage, and statements of its main() after gl_Position. Not for surfaces
+    /// with a program of their own.
+    std::string vertex, vertexStatements;
+    /// Statements of main() after the colour has been written to osgmr_out0.
+    std::string statements;
+    std::vector<std::pair<std::string, int>> samplers;            ///< Uniform and texture unit.
+    std::vector<std::pair<std::string, unsigned int>> attributes; ///< Name and location.
+
+    /// Joins what two kits add.
+    SurfaceSnippet& operator+=(const SurfaceSnippet& other);
 };
 
 /// A program for all surfaces with one key, and the StateSet that puts it over a leaf's own state.
 class OSGMULTIRENDER_EXPORT SurfaceVariant : public osg::Referenced
 {
 public:
-    /// The surface function of the fixed-function state that the key says.
-    SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet, float languageVersion);
-    /// The surface function of a model's own Program; see getError().
-    SurfaceVariant(const SurfaceKey& key, const osg::Program& program);
+    /// The surface function of the fixed-function state that the key says. `instance` is the GLSL
+    /// of a VertexSnippet, or empty.
+    SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
+                   const std::string& instance, float languageVersion);
+    /// The surface function of a model's own Program; see getError(). Of the snippet it takes what
+    /// comes after the colour.
+    SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
+                   const osg::Program& program);
 
     const SurfaceKey& getKey() const { return _key; }
     const osg::StateSet* getStateSet() const { return _stateSet.get(); }
@@ -51,7 +64,7 @@ protected:
     ~SurfaceVariant() override = default;
 
 private:
-    void finish();
+    void finish(const SurfaceSnippet& snippet);
 
     SurfaceKey _key;
     osg::ref_ptr<osg::Program> _program;

@@ -37,8 +37,6 @@ const char* nameOf(NoCaster reason)
     {
     case NoCaster::TEXT:
         return "texts";
-    case NoCaster::PARTICLES:
-        return "particle systems";
     case NoCaster::POINTS_AND_LINES:
         return "points and lines";
     default:
@@ -119,7 +117,7 @@ bool CasterCollector::casts(const osg::Node& node)
     return false;
 }
 
-void CasterCollector::addTo(State& state, const osg::StateSet& stateSet) const
+void CasterCollector::addTo(State& state, const osg::StateSet& stateSet)
 {
     using osg::StateAttribute;
     // As osg::State: what comes later wins, unless what was before overrides it unprotected.
@@ -191,38 +189,36 @@ bool CasterCollector::isLeftOut(const osg::Drawable& drawable, const State& stat
     return alpha < (_transparent == TransparentCasters::NONE ? 1.0f : 0.5f);
 }
 
+void CasterCollector::enter(State& state, const osg::Node& node)
+{
+    state.hasHoles = state.hasHoles || node.getCullCallback(); // may hide it, or what is below
+    if (node.getStateSet())
+        addTo(state, *node.getStateSet());
+}
+
 void CasterCollector::apply(osg::Node& node)
 {
     if (!casts(node))
         return;
     const State outer = _state;
-    _state.hasHoles = _state.hasHoles || node.getCullCallback(); // may hide what is below
-    if (node.getStateSet())
-        addTo(_state, *node.getStateSet());
+    enter(_state, node);
     traverse(node);
     _state = outer;
 }
 
 void CasterCollector::apply(osg::Transform& node)
 {
-    if (!casts(node))
-        return;
-    const State outer = _state;
-    _state.hasHoles = _state.hasHoles || node.getCullCallback(); // may hide what is below
-    if (node.getStateSet())
-        addTo(_state, *node.getStateSet());
     // The very operations of osgUtil::CullVisitor, so that the matrix is the same bit for bit.
     osg::ref_ptr<osg::RefMatrix> matrix = new osg::RefMatrix(*_matrices.back().modelview);
     node.computeLocalToWorldMatrix(*matrix, this);
     _matrices.push_back({matrix, node.getReferenceFrame()});
-    traverse(node);
+    apply(static_cast<osg::Node&>(node));
     _matrices.pop_back();
     if (_pushed > _matrices.size())
     {
         _cullStack.popModelViewMatrix();
         --_pushed;
     }
-    _state = outer;
 }
 
 void CasterCollector::apply(osg::LightSource& source)
@@ -243,9 +239,7 @@ void CasterCollector::apply(osg::Drawable& drawable)
         return;
     }
     State state = _state;
-    state.hasHoles = state.hasHoles || drawable.getCullCallback();
-    if (drawable.getStateSet())
-        addTo(state, *drawable.getStateSet());
+    enter(state, drawable);
     if (isWireframe(state))
     {
         ++_leftOut["wireframes"];

@@ -118,7 +118,8 @@ private:
     };
 
     bool casts(const osg::Node& node);
-    void addTo(State& state, const osg::StateSet& stateSet) const;
+    static void addTo(State& state, const osg::StateSet& stateSet);
+    static void enter(State& state, const osg::Node& node);
     bool isLeftOut(const osg::Drawable& drawable, const State& state) const;
     /// Triangles drawn as lines or points cast no more than those.
     static bool isWireframe(const State& state);

@@ -2,19 +2,16 @@
 #include <osgShadowVolume/CasterMesh.h>
 
 #include <osgShadowVolume/EdgeMeshBuilder.h>
+#include <osgShadowVolume/TriangleReader.h>
 
 #include <osg/Notify>
 #include <osg/PatchParameter>
 #include <osg/State>
-#include <osg/TriangleFunctor>
-#include <osg/TriangleIndexFunctor>
 #include <osgText/TextBase>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 #include <string>
-#include <type_traits>
 
 namespace osgShadowVolume
 {
@@ -22,173 +19,13 @@ namespace osgShadowVolume
 namespace
 {
 
-/// The positions of any kind of vertex array, as GL converts them.
-class Positions : public osg::ConstArrayVisitor
-{
-public:
-    std::vector<glm::vec3> points;
-
-#define OSGSV_ARRAY(Type)                                                                          \
-    void apply(const osg::Type& array) override                                                    \
-    {                                                                                              \
-        convert(array);                                                                            \
-    }
-    OSGSV_ARRAY(Vec2Array)
-    OSGSV_ARRAY(Vec3Array)
-    OSGSV_ARRAY(Vec4Array)
-    OSGSV_ARRAY(Vec2dArray)
-    OSGSV_ARRAY(Vec3dArray)
-    OSGSV_ARRAY(Vec4dArray)
-    OSGSV_ARRAY(Vec2sArray)
-    OSGSV_ARRAY(Vec3sArray)
-    OSGSV_ARRAY(Vec4sArray)
-    OSGSV_ARRAY(Vec2iArray)
-    OSGSV_ARRAY(Vec3iArray)
-    OSGSV_ARRAY(Vec4iArray)
-    OSGSV_ARRAY(Vec2bArray)
-    OSGSV_ARRAY(Vec3bArray)
-    OSGSV_ARRAY(Vec4bArray)
-#undef OSGSV_ARRAY
-
-private:
-    template <class Array> void convert(const Array& array)
-    {
-        points.reserve(array.size());
-        for (const auto& element : array)
-        {
-            constexpr int size = std::decay_t<decltype(element)>::num_components;
-            glm::vec3 point{float(element[0]), float(element[1]), 0.0f};
-            if constexpr (size > 2)
-                point.z = float(element[2]);
-            if constexpr (size > 3)
-                if (float(element[3]) != 1.0f)
-                    point /= float(element[3]);
-            points.push_back(point);
-        }
-    }
-};
-
-struct AddIndexed
-{
-    EdgeMeshBuilder* builder = nullptr;
-    const std::vector<glm::vec3>* points = nullptr;
-    std::size_t bad = 0;
-
-    void operator()(unsigned int a, unsigned int b, unsigned int c)
-    {
-        const std::size_t size = points->size();
-        if (a < size && b < size && c < size)
-            builder->addTriangle((*points)[a], (*points)[b], (*points)[c]);
-        else
-            ++bad;
-    }
-};
-
-/// Triangles of primitives, with the quads of strips divided as Mesa draws them: along the diagonal
-/// from the first corner to the fourth, not along the other one, which OSG's functor takes.
-class ReadTriangles : public osg::TriangleIndexFunctor<AddIndexed>
-{
-public:
-    void drawArrays(GLenum mode, GLint first, GLsizei count) override
-    {
-        if (mode == GL_QUAD_STRIP)
-            readStrip(count, [=](GLsizei i) { return unsigned(first + i); });
-        else
-            osg::TriangleIndexFunctor<AddIndexed>::drawArrays(mode, first, count);
-    }
-    void drawElements(GLenum mode, GLsizei count, const GLubyte* indices) override
-    {
-        readElements(mode, count, indices);
-    }
-    void drawElements(GLenum mode, GLsizei count, const GLushort* indices) override
-    {
-        readElements(mode, count, indices);
-    }
-    void drawElements(GLenum mode, GLsizei count, const GLuint* indices) override
-    {
-        readElements(mode, count, indices);
-    }
-
-private:
-    template <class T> void readElements(GLenum mode, GLsizei count, const T* indices)
-    {
-        if (mode == GL_QUAD_STRIP)
-            readStrip(count, [=](GLsizei i) { return unsigned(indices[i]); });
-        else
-            osg::TriangleIndexFunctor<AddIndexed>::drawElements(mode, count, indices);
-    }
-
-    template <class At> void readStrip(GLsizei count, const At& at)
-    {
-        for (GLsizei i = 0; i + 3 < count; i += 2)
-        {
-            (*this)(at(i), at(i + 1), at(i + 3));
-            (*this)(at(i), at(i + 3), at(i + 2));
-        }
-    }
-};
-
-struct AddTriangles
-{
-    EdgeMeshBuilder* builder = nullptr;
-
-    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool = false)
-    {
-        builder->addTriangle({a.x(), a.y(), a.z()}, {b.x(), b.y(), b.z()}, {c.x(), c.y(), c.z()});
-    }
-};
-
-const osg::Array* vertexArrayOf(const osg::Geometry& geometry)
-{
-    // As osg::Geometry itself: generic attribute 0 is the position.
-    const osg::Array* array = geometry.getVertexArray();
-    if ((!array || array->getNumElements() == 0) && geometry.getNumVertexAttribArrays() > 0)
-        array = geometry.getVertexAttribArray(0);
-    return array;
-}
-
 /// Returns how many triangles had indices beyond the vertices.
-std::size_t addDrawable(const osg::Drawable& drawable, EdgeMeshBuilder& builder)
+std::size_t readCaster(const osg::Drawable& drawable, EdgeMeshBuilder& builder)
 {
     if (whyNoCaster(drawable) != NoCaster::CASTS)
         return 0;
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry)
-    {
-        osg::TriangleFunctor<AddTriangles> functor;
-        functor.builder = &builder;
-        drawable.accept(functor);
-        return 0;
-    }
-    const osg::Array* array = vertexArrayOf(*geometry);
-    if (!array)
-        return 0;
-    Positions positions;
-    array->accept(positions);
-    ReadTriangles functor;
-    functor.builder = &builder;
-    functor.points = &positions.points;
-    for (unsigned int i = 0; i != geometry->getNumPrimitiveSets(); ++i)
-        geometry->getPrimitiveSet(i)->accept(functor);
-    return functor.bad;
-}
-
-bool hasTriangles(const osg::Geometry& geometry)
-{
-    for (unsigned int i = 0; i != geometry.getNumPrimitiveSets(); ++i)
-        switch (geometry.getPrimitiveSet(i)->getMode())
-        {
-        case GL_TRIANGLES:
-        case GL_TRIANGLE_STRIP:
-        case GL_TRIANGLE_FAN:
-        case GL_QUADS:
-        case GL_QUAD_STRIP:
-        case GL_POLYGON:
-            return true;
-        default:
-            break;
-        }
-    return false;
+    return readTriangles(drawable, [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+                         { builder.addTriangle(a, b, c); });
 }
 
 /// GL_PATCHES of a size of their own.
@@ -233,24 +70,16 @@ std::vector<std::uint32_t> pairOpposites(const std::vector<EdgeMesh::Group>& gro
 
 NoCaster whyNoCaster(const osg::Drawable& drawable)
 {
-    if (const osg::Geometry* geometry = drawable.asGeometry())
-        return hasTriangles(*geometry) ? NoCaster::CASTS : NoCaster::POINTS_AND_LINES;
+    if (drawable.asGeometry())
+        return hasTriangles(drawable) ? NoCaster::CASTS : NoCaster::POINTS_AND_LINES;
     if (dynamic_cast<const osgText::TextBase*>(&drawable))
         return NoCaster::TEXT;
-    // By name: the kit does not need the library for anything else.
-    if (std::strcmp(drawable.libraryName(), "osgParticle") == 0)
-        return NoCaster::PARTICLES;
-    osg::TriangleFunctor<AddTriangles> functor;
-    return drawable.supports(functor) ? NoCaster::CASTS : NoCaster::NO_TRIANGLES;
+    return hasTriangles(drawable) ? NoCaster::CASTS : NoCaster::NO_TRIANGLES;
 }
 
 CasterMesh::~CasterMesh() = default;
 
-namespace
-{
-
-/// Says once what is wrong with Drawables of a name: a mesh that changes is built again and again.
-void warnOnce(const CasterSource& source, std::size_t triangles, const char* reason)
+void warnLeftOut(const CasterSource& source, std::size_t triangles, const char* reason)
 {
     static std::mutex mutex;
     static std::set<std::string> said;
@@ -268,8 +97,6 @@ void warnOnce(const CasterSource& source, std::size_t triangles, const char* rea
                  << std::endl;
 }
 
-} // namespace
-
 void CasterMesh::build(const CasterSource& source)
 {
     std::call_once(_built,
@@ -277,13 +104,13 @@ void CasterMesh::build(const CasterSource& source)
                    {
                        EdgeMeshBuilder builder;
                        for (const auto& drawable : source)
-                           _badIndices += addDrawable(*drawable, builder);
+                           _badIndices += readCaster(*drawable, builder);
                        _edges = builder.build();
                        for (const glm::vec3& v : _edges.vertices)
                            _box.expandBy(v.x, v.y, v.z);
-                       warnOnce(source, _edges.notFinite,
-                                "a coordinate is infinite or not a number");
-                       warnOnce(source, _badIndices, "an index is beyond the vertices");
+                       warnLeftOut(source, _edges.notFinite,
+                                   "a coordinate is infinite or not a number");
+                       warnLeftOut(source, _badIndices, "an index is beyond the vertices");
                    });
 }
 

@@ -20,20 +20,22 @@ enum class NoCaster
 {
     CASTS,
     TEXT,
-    PARTICLES,
     POINTS_AND_LINES, ///< Only these, or nothing at all.
-    NO_TRIANGLES      ///< A class of Drawable that can't say what its triangles are.
+    NO_TRIANGLES      ///< A class of Drawable that can't say what its triangles are: particles.
 };
 
 /// Looks at its class and its primitive types, not at vertices.
 OSGSHADOWVOLUME_EXPORT NoCaster whyNoCaster(const osg::Drawable& drawable);
 
+/// Says on the console that so many triangles cast no shadow, and why. Once for Drawables of a name
+/// and a reason: a mesh that changes is built again and again. Silent for no triangles.
+void warnLeftOut(const CasterSource& source, std::size_t triangles, const char* reason);
+
 /// The welded triangles of some Drawables, and what draws them.
 ///
-/// All primitive types of OSG are read, indexed or not, from vertices of any type; four
-/// coordinates are divided by the last. Indices beyond the vertices are left out and counted. A
-/// quad that is not planar is two triangles. GL leaves open along which diagonal; where it draws
-/// the other one the quad may shadow itself. Functions may be called from any thread.
+/// Reads what readTriangles() reads; triangles with indices beyond the vertices are left out and
+/// counted. Where GL draws a quad that is not planar along the other diagonal the quad may shadow
+/// itself. Functions may be called from any thread.
 class OSGSHADOWVOLUME_EXPORT CasterMesh : public osg::Referenced
 {
 public:

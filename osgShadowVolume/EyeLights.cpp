@@ -3,21 +3,18 @@
 
 #include <osgShadowVolume/CastShadow.h>
 
+#include <glm/gtc/type_ptr.hpp>
+
 namespace osgShadowVolume
 {
 
 namespace
 {
 
-glm::vec3 toGlm(const osg::Vec4& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 glm::dvec3 unit(const osg::Vec3d& v)
 {
     const double length = v.length();
-    return length > 0.0 ? glm::dvec3(v.x(), v.y(), v.z()) / length : glm::dvec3(0.0);
+    return length > 0.0 ? glm::make_vec3(v.ptr()) / length : glm::dvec3(0.0);
 }
 
 } // namespace
@@ -29,9 +26,9 @@ EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
     eye.name = light.getName();
     eye.isHeadlight = !matrix;
     eye.castsShadow = !saysNoShadow(light);
-    eye.ambient = toGlm(light.getAmbient());
-    eye.diffuse = toGlm(light.getDiffuse());
-    eye.specular = toGlm(light.getSpecular());
+    eye.ambient = glm::make_vec3(light.getAmbient().ptr());
+    eye.diffuse = glm::make_vec3(light.getDiffuse().ptr());
+    eye.specular = glm::make_vec3(light.getSpecular().ptr());
     eye.constantAttenuation = light.getConstantAttenuation();
     eye.linearAttenuation = light.getLinearAttenuation();
     eye.quadraticAttenuation = light.getQuadraticAttenuation();
@@ -47,7 +44,7 @@ EyeLight toEye(const osg::Light& light, const osg::Matrix* matrix)
     else
     {
         eye.type = hasCone ? EyeLight::Spot : EyeLight::Point;
-        eye.position = glm::dvec3(position.x(), position.y(), position.z()) / position.w();
+        eye.position = glm::make_vec3(position.ptr()) / position.w();
     }
     eye.spotDirection = unit(osg::Matrix::transform3x3(osg::Vec3d(light.getDirection()), m));
     eye.spotCutoffDegrees = light.getSpotCutoff();

@@ -3,9 +3,11 @@
 
 #include <osgShadowVolume/CasterCollector.h>
 #include <osgShadowVolume/SceneLights.h>
+#include <osgShadowVolume/TriangleReader.h>
 
-#include <osg/TriangleFunctor>
 #include <osgUtil/CullVisitor>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,23 +20,6 @@ namespace
 
 /// Share of the scene's size within which a point lies on a surface.
 constexpr double OnSurface = 1e-6;
-
-glm::dvec3 toGlm(const osg::Vec3d& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
-struct AddTriangle
-{
-    std::vector<TriangleTree::Triangle>* triangles = nullptr;
-    osg::Matrixd toWorld;
-
-    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c) const
-    {
-        triangles->push_back({toGlm(osg::Vec3d(a) * toWorld), toGlm(osg::Vec3d(b) * toWorld),
-                              toGlm(osg::Vec3d(c) * toWorld)});
-    }
-};
 
 /// What casts in the picture, of each LOD what is shown close up.
 class NearCasters : public CasterCollector
@@ -60,11 +45,15 @@ std::vector<TriangleTree::Triangle> collectTriangles(osg::Node& scene, Transpare
     std::vector<TriangleTree::Triangle> triangles;
     for (const Caster& caster : casters.getCasters())
     {
-        osg::TriangleFunctor<AddTriangle> functor;
-        functor.triangles = &triangles;
-        functor.toWorld = *caster.modelview;
+        const glm::dmat4 matrix = glm::make_mat4(caster.modelview->ptr());
+        const auto toWorld = [&](const glm::vec3& p)
+        { return glm::dvec3(matrix * glm::dvec4(p, 1.0)); };
+        const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
+        { triangles.push_back({toWorld(a), toWorld(b), toWorld(c)}); };
+        std::size_t badIndices = 0;
         for (const auto& drawable : caster.source)
-            drawable->accept(functor);
+            badIndices += readTriangles(*drawable, add);
+        warnLeftOut(caster.source, badIndices, "an index is beyond the vertices");
     }
     return triangles;
 }
@@ -112,8 +101,8 @@ IlluminanceProbe::Reading IlluminanceProbe::measure(const osg::Vec3d& point,
 {
     Reading reading;
     const double length = normal.length();
-    const glm::dvec3 at = toGlm(point);
-    const glm::dvec3 n = length > 0.0 ? toGlm(normal) / length : glm::dvec3(0.0);
+    const glm::dvec3 at = glm::make_vec3(point.ptr());
+    const glm::dvec3 n = length > 0.0 ? glm::make_vec3(normal.ptr()) / length : glm::dvec3(0.0);
     for (const EyeLight& light : _lights)
     {
         double lux = illuminanceAt(light, at, n);

@@ -5,6 +5,8 @@
 
 #include <osgUtil/CullVisitor>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,20 +16,6 @@ namespace osgShadowVolume
 
 namespace
 {
-
-glm::dmat4 toGlm(const osg::Matrixd& m)
-{
-    glm::dmat4 result;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            result[row][column] = m(row, column); // osg's rows are GLM's columns
-    return result;
-}
-
-glm::dvec3 toGlm(const osg::Vec3d& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
 
 /// How far the light shines until it is past all corners; infinity for an unknown extent.
 double reachPast(const Hexahedron& corners, const EyeLight& light)
@@ -92,7 +80,7 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
                         const std::vector<EyeLight>& lights, const std::vector<double>& limits)
 {
     _lights = &lights;
-    const glm::dmat4 projection = toGlm(*_projection);
+    const glm::dmat4 projection = glm::make_mat4(_projection->ptr());
     const Hexahedron frustum = frustumOf(projection), nearRectangle = nearRectangleOf(projection);
     // Casters may be many, and a headlight alone asks for none.
     const bool anyCasts =
@@ -102,9 +90,9 @@ void LightShadows::plan(const glm::dvec4& viewport, const Hexahedron& receivers,
     std::vector<EyeSphere> spheres;
     for (std::size_t i = 0; anyCasts && i < _casters.size(); ++i)
     {
-        boxes.push_back(boxOf(toGlm(osg::Vec3d(_casters[i].box._min)),
-                              toGlm(osg::Vec3d(_casters[i].box._max)),
-                              toGlm(*_casters[i].modelview)));
+        const osg::BoundingBox& box = _casters[i].box;
+        boxes.push_back(boxOf(glm::make_vec3(box._min.ptr()), glm::make_vec3(box._max.ptr()),
+                              glm::make_mat4(_casters[i].modelview->ptr())));
         spheres.push_back(sphereAround(boxes.back()));
     }
     // A mask shows whether a light is taken away even where there is none of it.

@@ -138,8 +138,8 @@ bool LitPass::lightsUnlit() const
     return _settings.show != Show::PICTURE && _settings.show != Show::VOLUMES;
 }
 
-void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, SurfaceKey& key,
-                       std::uint32_t& number)
+void LitPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, bool,
+                       SurfaceKey& key, std::uint32_t& number)
 {
     if (key.lighting == LightingMode::Pixel || lightsUnlit())
         classifyLights(state, leaf, key, number);

@@ -91,7 +91,8 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
         snippet.output = "vec4 osgmr_output(vec4 surface)\n{\n"
                          "    return vec4(vec3(osgsv_lightLeft), 1.0);\n}\n";
     }
-    if (show == Show::LUX || show == Show::ILLUMINANCE)
+    const bool measures = show == Show::LUX || show == Show::ILLUMINANCE;
+    if (measures)
     {
         snippet.fragment = "#define OSGSV_ILLUMINANCE\n";
         snippet.output = illuminanceSource(show == Show::ILLUMINANCE);
@@ -117,6 +118,8 @@ SurfaceSnippet LitPass::makeSnippet(const SurfaceKey& key) const
     {
         snippet.fragment += "void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, "
                             "inout vec3 diffuse, inout vec3 specular)\n{\n";
+        if (measures && uniforms > 0)
+            snippet.fragment += "    surface.normal = osgsv_seenNormal(surface);\n";
         for (std::uint32_t i = 0; i < uniforms; ++i)
             snippet.fragment += "    osgsv_addLight(" + std::to_string(i) + ", " +
                                 std::to_string((key.kit >> (TypesShift + 2 * i)) & 3u) +
@@ -162,7 +165,7 @@ const osg::StateSet* LitPass::mergeUnder(std::initializer_list<const osg::StateS
 }
 
 void LitPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
-                    std::uint32_t number)
+                    const osgUtil::RenderLeaf&, std::uint32_t number)
 {
     const auto [applied, isNew] = _applied.emplace(&variant, number);
     if (!isNew && applied->second == number)

@@ -40,7 +40,7 @@ public:
     osgMultiRender::LightingMode getLighting() const override;
     void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
-                  osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
+                  bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
     bool classifiesUnlit() const override;
     void end(osg::RenderInfo& renderInfo) override;
     void drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame) override;
@@ -49,7 +49,7 @@ public:
     makeSnippet(const osgMultiRender::SurfaceKey& key) const override;
     const osg::StateSet* startRun() override;
     void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
-               std::uint32_t number) override;
+               const osgUtil::RenderLeaf& leaf, std::uint32_t number) override;
     void fillPlan(osgMultiRender::Plan& plan) const override;
 
 private:

@@ -19,14 +19,9 @@ namespace
 
 constexpr unsigned int mostSamples = 16; ///< On a side.
 
-glm::dvec3 toGlm(const osg::Vec3d& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
-
 template <class Box> Hexahedron toHexahedron(const Box& box, const glm::dmat4& modelview)
 {
-    return boxOf(toGlm(osg::Vec3d(box._min)), toGlm(osg::Vec3d(box._max)), modelview);
+    return boxOf(glm::make_vec3(box._min.ptr()), glm::make_vec3(box._max.ptr()), modelview);
 }
 
 glm::dmat4 worldFrom(const osgMultiRender::SurfaceFrame& frame)
@@ -82,13 +77,22 @@ void MapShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame&
         return;
     _resources.casters->evict(state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
     _meshes.assign(getCasters().size(), nullptr);
-    const std::vector<Placed> maps = fit(frame, lights);
+    std::vector<Placed> maps = fit(frame, lights);
     // Without a map the table alone is read: a light has none where it says so.
     _targets = _resources.maps.acquire(_contextID,
                                        {std::max(1u, _budget.size), std::max(1u, _budget.layers)});
     _bytes = _targets->getBytes();
-    _targets->setData(makeData(maps));
     const FramebufferVisit visit(state);
+    const std::string& status = _targets->whyIncomplete(state);
+    if (!status.empty())
+    {
+        const int size = int(_budget.size);
+        const std::string reason = _resources.warnIncomplete(status, size, size, 1);
+        for (const Placed& placed : maps)
+            _descriptions[placed.light] = reason;
+        maps.clear();
+    }
+    _targets->setData(makeData(maps));
     state.pushStateSet(_targets->getDrawState());
     state.pushStateSet(&_resources.mapPrograms.get(_samples));
     state.apply();

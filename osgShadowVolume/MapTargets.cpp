@@ -48,6 +48,16 @@ MapTargets::MapTargets(unsigned int contextID, const MapLayout& layout)
 
 MapTargets::~MapTargets() = default;
 
+const std::string& MapTargets::whyIncomplete(osg::State& state)
+{
+    if (!_whyIncomplete)
+    {
+        bind(state, 0);
+        _whyIncomplete = Framebuffer::whyIncomplete(state);
+    }
+    return *_whyIncomplete;
+}
+
 void MapTargets::bind(osg::State& state, unsigned int layer)
 {
     _framebuffer.bind(state, false);

@@ -1,16 +1,22 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgShadowVolume/Framebuffer.h>
-#include <osgShadowVolume/TargetTexture.h>
+#include <osgMultiRender/Framebuffer.h>
+#include <osgMultiRender/TargetTexture.h>
 
 #include <osg/StateSet>
 #include <osg/Texture2D>
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace osgShadowVolume
 {
+
+using osgMultiRender::Framebuffer;
+using osgMultiRender::FramebufferVisit;
+using osgMultiRender::TargetTexture;
 
 /// What the depth maps of one view look like.
 struct MapLayout
@@ -40,6 +46,9 @@ public:
     const MapLayout& getLayout() const { return _layout; }
     std::size_t getBytes() const { return _maps->getBytes(); }
 
+    /// As ShadowTargets::whyIncomplete().
+    const std::string& whyIncomplete(osg::State& state);
+
     /// Binds the framebuffer for a layer.
     void bind(osg::State& state, unsigned int layer);
     /// Takes the table of lights, FloatsPerLight each.
@@ -56,6 +65,7 @@ protected:
 
 private:
     const MapLayout _layout;
+    std::optional<std::string> _whyIncomplete;
     Framebuffer _framebuffer;
     osg::ref_ptr<TargetTexture> _maps;
     osg::ref_ptr<osg::Texture2D> _data;

@@ -6,6 +6,8 @@
 #include <osg/ClipPlane>
 #include <osgUtil/CullVisitor>
 
+#include <glm/gtc/type_ptr.hpp>
+
 #include <algorithm>
 
 namespace osgShadowVolume
@@ -48,12 +50,7 @@ MirrorCamera::MirrorCamera(const MirrorLayout& layout)
 void MirrorCamera::cull(osgUtil::CullVisitor& visitor, osg::Group& group, const glm::dvec4& plane,
                         double tolerance)
 {
-    const glm::dmat4 reflection = reflectionIn(plane);
-    osg::Matrixd matrix;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            matrix(row, column) = reflection[row][column]; // osg's rows are GLM's columns
-    setViewMatrix(matrix);
+    setViewMatrix(osg::Matrixd(glm::value_ptr(reflectionIn(plane))));
     _plane = plane;
     _tolerance = tolerance;
     _group = &group;

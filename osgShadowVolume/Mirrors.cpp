@@ -2,14 +2,16 @@
 #include <osgShadowVolume/Mirrors.h>
 
 #include <osgShadowVolume/Shaders.h>
+#include <osgShadowVolume/TriangleReader.h>
 
 #include <osg/CullFace>
 #include <osg/FrontFace>
 #include <osg/Geometry>
 #include <osg/Notify>
-#include <osg/TriangleFunctor>
 #include <osgDB/ReadFile>
 #include <osgUtil/CullVisitor>
+
+#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,30 +26,14 @@ using osgMultiRender::PlanEntry;
 namespace
 {
 
-glm::dmat4 toGlm(const osg::Matrixd& m)
-{
-    glm::dmat4 result;
-    for (int row = 0; row < 4; ++row)
-        for (int column = 0; column < 4; ++column)
-            result[row][column] = m(row, column); // osg's rows are GLM's columns
-    return result;
-}
-
-struct PointsOfTriangles
-{
-    void operator()(const osg::Vec3& a, const osg::Vec3& b, const osg::Vec3& c, bool = false)
-    {
-        for (const osg::Vec3& p : {a, b, c})
-            points.emplace_back(p.x(), p.y(), p.z());
-    }
-    std::vector<glm::dvec3> points;
-};
-
 std::vector<glm::dvec3> trianglesOf(const osg::Drawable& drawable)
 {
-    osg::TriangleFunctor<PointsOfTriangles> functor;
-    drawable.accept(functor);
-    return std::move(functor.points);
+    std::vector<glm::dvec3> points;
+    readTriangles(drawable,
+                  [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+                      points.insert(points.end(), {a, b, c});
+                  });
+    return points;
 }
 
 /// What counts of an attribute or a mode on a leaf's path.
@@ -254,7 +240,7 @@ std::vector<Mirrors::Found> Mirrors::find(osgUtil::CullVisitor& visitor,
                             drawables.count(leaf->_drawable.get()))
                             seen.emplace(leaf->_drawable.get(), leaf.get());
                 });
-    const glm::dmat4 projection = toGlm(*visitor.getProjectionMatrix());
+    const glm::dmat4 projection = glm::make_mat4(visitor.getProjectionMatrix()->ptr());
     const glm::dvec4 eye = eyeOf(projection);
     std::vector<Found> result;
     for (NamedMirror& mirror : named)
@@ -267,7 +253,7 @@ std::vector<Mirrors::Found> Mirrors::find(osgUtil::CullVisitor& visitor,
             continue;
         }
         Found found;
-        found.shape = local->transformed(toGlm(mirror.modelview));
+        found.shape = local->transformed(glm::make_mat4(mirror.modelview.ptr()));
         found.share = shareOfView(found.shape, projection);
         const auto plane = planeTowards(found.shape, eye);
         // A Drawable that is used in several places has a leaf for each.
@@ -374,8 +360,8 @@ void Mirrors::trim(osgUtil::CullVisitor& visitor, osg::Group& group, const Mirro
     {
         std::string error;
         const auto shape = _resources.shapes.get(mirror, error);
-        if (shape && liesIn(shape->transformed(toGlm(mirror.modelview)), camera.getPlane(),
-                            camera.getTolerance()))
+        if (shape && liesIn(shape->transformed(glm::make_mat4(mirror.modelview.ptr())),
+                            camera.getPlane(), camera.getTolerance()))
             inPlane[mirror.drawable].push_back(mirror.modelview);
     }
     const auto isLeftOut = [&](const osg::ref_ptr<osgUtil::RenderLeaf>& leaf)

@@ -34,6 +34,30 @@ std::size_t ShadowTargets::getBytes() const
     return bytes;
 }
 
+const std::string& ShadowTargets::whyIncomplete(osg::State& state)
+{
+    if (_whyIncomplete)
+        return *_whyIncomplete;
+    _whyIncomplete.emplace();
+    const auto check = [&]
+    {
+        if (_whyIncomplete->empty())
+            *_whyIncomplete = Framebuffer::whyIncomplete(state);
+    };
+    bindDepth(state);
+    check();
+    bindCounter(state, -1);
+    check();
+    bindMask(state, -1, 0);
+    check();
+    if (_layout.layers)
+    {
+        bindLayer(state, 0);
+        check();
+    }
+    return *_whyIncomplete;
+}
+
 void ShadowTargets::bindDepth(osg::State& state)
 {
     _depth.bind(state, false);

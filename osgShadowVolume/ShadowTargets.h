@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgShadowVolume/Framebuffer.h>
-#include <osgShadowVolume/TargetTexture.h>
+#include <osgMultiRender/Framebuffer.h>
+#include <osgMultiRender/TargetTexture.h>
 
 #include <osg/StateSet>
 
+#include <optional>
+#include <string>
+
 namespace osgShadowVolume
 {
+
+using osgMultiRender::Framebuffer;
+using osgMultiRender::FramebufferVisit;
+using osgMultiRender::TargetTexture;
 
 /// What the targets of one view look like.
 struct TargetLayout
@@ -45,6 +52,10 @@ public:
     int getFlippedHeight() const { return _layout.flipped ? _layout.height : 0; }
     std::size_t getBytes() const;
 
+    /// Empty, or why OpenGL can't draw into them. Asks it the first time only, and then leaves
+    /// another framebuffer bound.
+    const std::string& whyIncomplete(osg::State& state);
+
     /// Binds the framebuffer for the opaque surfaces' depths; no colour.
     void bindDepth(osg::State& state);
     /// ... for the depths of a transparent layer, which also go to the array of layers.
@@ -67,6 +78,7 @@ protected:
 
 private:
     const TargetLayout _layout;
+    std::optional<std::string> _whyIncomplete;
     Framebuffer _depth, _layer, _counting, _masking;
     osg::ref_ptr<TargetTexture> _opaqueDepth;
     osg::ref_ptr<TargetTexture> _peeledDepth[2]; ///< By turns.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/VolumeShadows.h>
 
+#include <osgMultiRender/DrawTarget.h>
 #include <osgShadowVolume/CasterDraw.h>
 #include <osgShadowVolume/DepthBounds.h>
 #include <osgShadowVolume/EnumNames.h>
@@ -13,6 +14,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#ifndef GL_MAX_COLOR_TEXTURE_SAMPLES
+#define GL_MAX_COLOR_TEXTURE_SAMPLES 0x910E
+#define GL_MAX_DEPTH_TEXTURE_SAMPLES 0x910F
+#define GL_MAX_INTEGER_SAMPLES 0x9110
+#endif
 
 namespace osgShadowVolume
 {
@@ -43,6 +51,20 @@ std::string nameOf(Technique technique)
     return {};
 }
 
+/// That textures may have of all the kinds that ShadowTargets has.
+int mostSamples()
+{
+    GLint most = std::numeric_limits<GLint>::max();
+    for (const GLenum limit :
+         {GL_MAX_COLOR_TEXTURE_SAMPLES, GL_MAX_DEPTH_TEXTURE_SAMPLES, GL_MAX_INTEGER_SAMPLES})
+    {
+        GLint samples = 1;
+        glGetIntegerv(limit, &samples);
+        most = std::min(most, samples);
+    }
+    return std::max(1, most);
+}
+
 bool isOpaque(const SurfaceItem& item)
 {
     return item.state->isOpaque();
@@ -64,15 +86,10 @@ VolumeShadows::~VolumeShadows()
 void VolumeShadows::begin(osg::RenderInfo& renderInfo)
 {
     const auto* gl = renderInfo.getState()->get<osg::GLExtensions>();
-    GLint samples = 0;
-    glGetIntegerv(GL_SAMPLES, &samples);
-    _tier.samples = std::max(1, samples);
-    // Mesa draws windows upside down, and so their samples lie elsewhere in a pixel than those of
-    // framebuffer objects.
-    GLint framebuffer = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &framebuffer);
-    _isFlipped =
-        _tier.samples > 1 && framebuffer == 0 && Framebuffer::canFlip(*renderInfo.getState());
+    const auto target = osgMultiRender::DrawTarget::current(*renderInfo.getState());
+    _viewSamples = target.samples;
+    _tier.samples = std::min(_viewSamples, mostSamples());
+    _isFlipped = target.flipped && _tier.samples > 1;
     const float version = std::min(gl->glVersion, gl->glslLanguageVersion);
     _tier.language = std::clamp(int(std::lround(version * 100.0f)), 330, 450);
     const bool hasPrecise =
@@ -124,9 +141,9 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     layout.flipped = _isFlipped;
     layout.words = (lights + 31) / 32;
     layout.layers = hasTransparent ? int(getSettings().transparentLayers) : 0;
-    _targets = _resources.targets.acquire(_contextID, layout);
-
     FramebufferVisit visit(state);
+    if (!acquireTargets(state, layout))
+        return;
     // Without it osg::State would go back to its default viewport at our own draws.
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
@@ -147,6 +164,20 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     if (_targets->getLayers())
         _lookUp->setTextureAttribute(ShadowTargets::LayersUnit, _targets->getLayers(),
                                      osg::StateAttribute::OVERRIDE);
+}
+
+bool VolumeShadows::acquireTargets(osg::State& state, const TargetLayout& layout)
+{
+    _targets = _resources.targets.acquire(_contextID, layout);
+    const std::string& status = _targets->whyIncomplete(state);
+    if (status.empty())
+        return true;
+    const std::string reason =
+        _resources.warnIncomplete(status, layout.width, layout.height, layout.samples);
+    std::fill(_descriptions.begin(), _descriptions.end(), reason);
+    _resources.targets.release(_contextID, _targets);
+    _targets = nullptr;
+    return false;
 }
 
 void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
@@ -297,12 +328,16 @@ void VolumeShadows::drawVolumes(osg::RenderInfo& renderInfo, std::size_t light)
                            ", z-fail for " + std::to_string(zFail) +
                            ", technique=" + nameOf(_technique) + ", on " +
                            std::to_string(std::lround(100.0 * share)) + " % of the screen";
+    if (_tier.samples < _viewSamples)
+        _descriptions[light] += ", with " + std::to_string(_tier.samples) + " of " +
+                                std::to_string(_viewSamples) + " samples";
 }
 
 std::string VolumeShadows::makeSource(bool transparent) const
 {
     std::string source = "#define OSGSV_SAMPLES " + std::to_string(_tier.samples) + "\n";
-    if (_tier.language >= 400)
+    // Samples of another number lie elsewhere in the pixel.
+    if (_tier.language >= 400 && _tier.samples == _viewSamples)
         source += "#define OSGSV_SAMPLE_MASK\n";
     if (transparent)
         source += "#define OSGSV_TRANSPARENT\n";
@@ -320,13 +355,14 @@ void VolumeShadows::apply(const osg::Program::PerContextProgram& program,
                           const osg::GLExtensions& gl) const
 {
     static const unsigned int size = osg::Uniform::getNameID("osgsv_maskSize");
-    if (_targets)
-        gl.glUniform3i(program.getUniformLocation(size), _targets->getLayout().words, _layers,
-                       _targets->getFlippedHeight());
+    gl.glUniform3i(program.getUniformLocation(size), _targets ? _targets->getLayout().words : 0,
+                   _layers, _targets ? _targets->getFlippedHeight() : 0);
 }
 
 std::uint32_t VolumeShadows::getVariantBits() const
 {
+    if (_tier.samples < _viewSamples && _tier.samples > 1)
+        return 7; // as many as the context has, without their coverage
     // Samples are a power of two up to 64.
     std::uint32_t bits = 0;
     for (int samples = _tier.samples; samples > 1; samples /= 2)

@@ -44,6 +44,8 @@ private:
     /// Draws the next transparent layer; false when nothing is left.
     bool peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
               const Items& isReceiver, int layer);
+    /// Takes targets for the lights that have volumes; false, and said, where OpenGL has none.
+    bool acquireTargets(osg::State& state, const TargetLayout& layout);
     void makeMask(osg::RenderInfo& renderInfo, const std::vector<bool>& used, int layer);
     void resolve(osg::RenderInfo& renderInfo, int bit);
     const osg::ref_ptr<CasterMesh>& getMesh(std::size_t caster);
@@ -53,6 +55,7 @@ private:
     ShadowResources& _resources;
     Technique _technique = Technique::CPU; ///< Of those that the context has.
     ShadowPasses::Tier _tier;
+    int _viewSamples = 1;    ///< Of what the view draws into; the tier may have fewer.
     bool _isFlipped = false; ///< The target's samples lie upside down.
     osg::ref_ptr<ShadowTargets> _targets;
     unsigned int _contextID = 0;

@@ -10,6 +10,18 @@ out vec3 osgmr_position;
 // Passes that draw the same surface by other programs cover the same pixels at the same depths.
 invariant gl_Position;
 
+#ifdef OSGMR_INSTANCE
+// One vertex array is drawn many times: a VertexSnippet says where.
+vec4 OSGMR_VERTEX = gl_Vertex;
+vec3 OSGMR_NORMAL = gl_Normal;
+vec4 OSGMR_COLOR = gl_Color;
+void osgmr_instance(inout vec4 vertex, inout vec3 normal, inout vec4 color);
+#else
+#define OSGMR_VERTEX gl_Vertex
+#define OSGMR_NORMAL gl_Normal
+#define OSGMR_COLOR gl_Color
+#endif
+
 vec4 osgmr_eye;     // position in eye coordinates
 vec3 osgmr_vNormal; // normal in eye coordinates, scaled as the state says
 
@@ -63,16 +75,16 @@ void osgmr_addLight(gl_LightSourceParameters light, int type, vec3 normal, float
 void osgmr_shade(gl_MaterialParameters material, vec3 normal, out vec4 primary, out vec4 secondary)
 {
 #if OSGMR_COLOR_MODE == 1 || OSGMR_COLOR_MODE == 5
-    material.ambient = gl_Color;
+    material.ambient = OSGMR_COLOR;
 #endif
 #if OSGMR_COLOR_MODE == 2 || OSGMR_COLOR_MODE == 5
-    material.diffuse = gl_Color;
+    material.diffuse = OSGMR_COLOR;
 #endif
 #if OSGMR_COLOR_MODE == 3
-    material.specular = gl_Color;
+    material.specular = OSGMR_COLOR;
 #endif
 #if OSGMR_COLOR_MODE == 4
-    material.emission = gl_Color;
+    material.emission = OSGMR_COLOR;
 #endif
     osgmr_ambientLight = gl_LightModel.ambient.rgb;
     osgmr_diffuseLight = vec3(0.0);
@@ -93,12 +105,15 @@ void osgmr_shade(gl_MaterialParameters material, vec3 normal, out vec4 primary, 
 
 void osgmr_vertex()
 {
+#ifdef OSGMR_INSTANCE
+    osgmr_instance(OSGMR_VERTEX, OSGMR_NORMAL, OSGMR_COLOR);
+#endif
 #ifdef OSGMR_EYE
-    osgmr_eye = gl_ModelViewMatrix * gl_Vertex;
+    osgmr_eye = gl_ModelViewMatrix * OSGMR_VERTEX;
     osgmr_eye.xyz /= osgmr_eye.w;
 #endif
 #ifdef OSGMR_NORMALS
-    osgmr_vNormal = gl_NormalMatrix * gl_Normal;
+    osgmr_vNormal = gl_NormalMatrix * OSGMR_NORMAL;
 #if defined(OSGMR_NORMALIZE) && defined(OSGMR_LIGHTING_PIXEL)
     // A zero normal stays zero: NaN would spread over its triangles.
     float size = length(osgmr_vNormal);
@@ -119,10 +134,10 @@ void osgmr_vertex()
 #endif
 #elif defined(OSGMR_LIGHTING_PIXEL)
     osgmr_normal = osgmr_vNormal;
-    osgmr_color = gl_Color;
+    osgmr_color = OSGMR_COLOR;
     osgmr_position = osgmr_eye.xyz;
 #else
-    gl_FrontColor = gl_Color;
+    gl_FrontColor = OSGMR_COLOR;
 #ifdef OSGMR_COLOR_SUM
     gl_FrontSecondaryColor = gl_SecondaryColor;
 #endif
@@ -134,7 +149,11 @@ void osgmr_vertex()
     gl_FogFragCoord = abs(osgmr_eye.z);
 #endif
 #ifdef OSGMR_CLIP
-    gl_ClipVertex = gl_ModelViewMatrix * gl_Vertex;
+    gl_ClipVertex = gl_ModelViewMatrix * OSGMR_VERTEX;
 #endif
+#ifdef OSGMR_INSTANCE
+    gl_Position = gl_ModelViewProjectionMatrix * OSGMR_VERTEX;
+#else
     gl_Position = ftransform();
+#endif
 }

@@ -11,7 +11,8 @@ float osgsv_lux = 0.0;
 bool osgsv_isUnknown = false;
 
 #if !defined(OSGSV_UNIFORM) || OSGSV_UNIFORM > 0
-// The unit normal on the side that is seen; the triangle's own where the model has none.
+// The unit normal on the side that is seen; the triangle's own where the model has none. Takes
+// derivatives: call it where all fragments of a triangle pass, before any light.
 vec3 osgsv_seenNormal(osgmr_Lit surface)
 {
     vec3 face = cross(dFdx(surface.position), dFdy(surface.position));
@@ -26,6 +27,7 @@ vec3 osgsv_seenNormal(osgmr_Lit surface)
     return size > 0.0 ? face / size : face;
 }
 
+// `surface` has the normal that is seen.
 void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
                     inout vec3 specular)
 {
@@ -53,7 +55,7 @@ void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient
         float c = dot(-toLight, spot.xyz);
         lux *= c < spot.w ? 0.0 : exponent == 0.0 ? 1.0 : pow(max(c, 0.0), exponent);
     }
-    lux *= max(dot(osgsv_seenNormal(surface), toLight), 0.0);
+    lux *= max(dot(surface.normal, toLight), 0.0);
 #ifdef OSGSV_SHADOWS
     float shadow = OSGSV_LIGHT(light, 5).y;
     if (shadow >= 0.0 && lux > 0.0)

@@ -34,8 +34,9 @@ float osgsv_lightLeft = 1.0; // the least that a light has left
 
 // `type` is that of texel 0; a constant where the light is unrolled.
 #ifdef OSGSV_ILLUMINANCE
+vec3 osgsv_seenNormal(osgmr_Lit surface); // illuminance.frag
 void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
-                    inout vec3 specular); // illuminance.frag
+                    inout vec3 specular); // likewise
 #elif !defined(OSGSV_UNIFORM) || OSGSV_UNIFORM > 0
 void osgsv_addLight(int light, float type, osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse,
                     inout vec3 specular)
@@ -108,6 +109,9 @@ uniform int osgsv_gridCells; // where offset and count of cell 0 lie
 
 void osgmr_addLights(osgmr_Lit surface, inout vec3 ambient, inout vec3 diffuse, inout vec3 specular)
 {
+#ifdef OSGSV_ILLUMINANCE
+    surface.normal = osgsv_seenNormal(surface);
+#endif
     osgsv_addList(osgsv_range, surface, ambient, diffuse, specular);
 #ifdef OSGSV_GRID
     ivec3 cell = ivec3(clamp((osgsv_gridAxes * surface.position - osgsv_gridOrigin) *

@@ -9,7 +9,8 @@ uniform sampler2DMSArray osgsv_layers;
 uniform usampler2DArray osgsv_mask;
 uniform sampler2DArray osgsv_layers;
 #endif
-uniform ivec3 osgsv_maskSize; // words, transparent layers, height where rows count from the top or 0
+// Words (none: there is no mask), transparent layers, height where rows count from the top or 0.
+uniform ivec3 osgsv_maskSize;
 
 ivec3 osgsv_texel(int layer)
 {
@@ -49,6 +50,8 @@ float osgsv_sampleVisible(int index, int s)
 
 float osgsv_visible(float shadow, vec3 position)
 {
+    if (osgsv_maskSize.x == 0)
+        return 1.0;
     int index = int(shadow);
 #if OSGSV_SAMPLES > 1
     float visible = 0.0;

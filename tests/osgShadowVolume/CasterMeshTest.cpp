@@ -236,7 +236,7 @@ TEST(CasterMeshTest, textAndParticlesAndUnknownDrawablesCastNothing)
     EXPECT_EQ(whyNoCaster(*text), NoCaster::TEXT);
     EXPECT_EQ(trianglesOf(text), 0u);
     osg::ref_ptr<osgParticle::ParticleSystem> particles = new osgParticle::ParticleSystem;
-    EXPECT_EQ(whyNoCaster(*particles), NoCaster::PARTICLES);
+    EXPECT_EQ(whyNoCaster(*particles), NoCaster::NO_TRIANGLES);
     EXPECT_EQ(whyNoCaster(*osg::ref_ptr<Opaque>(new Opaque)), NoCaster::NO_TRIANGLES);
 }
 

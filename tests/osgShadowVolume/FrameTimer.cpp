@@ -39,6 +39,11 @@ FrameTime FrameTimer::draw(osg::Node& scene, const support::CameraSpec& camera,
     _viewer.render(&scene, camera, _width, _height);
     if (change)
         change();
+    return drawOnce(scene, camera);
+}
+
+FrameTime FrameTimer::drawOnce(osg::Node& scene, const support::CameraSpec& camera)
+{
     FrameTime time;
     const osg::Timer_t start = osg::Timer::instance()->tick();
     _viewer.render(&scene, camera, _width, _height);
@@ -93,7 +98,14 @@ bool Table::write(const std::string& name) const
     return file.good();
 }
 
-bool parseSize(const std::string& text, int& width, int& height)
+bool BenchmarkOptions::read(osg::ArgumentParser& arguments)
 {
-    return std::sscanf(text.c_str(), "%dx%d", &width, &height) == 2 && width > 0 && height > 0;
+    arguments.read("--rounds", rounds);
+    arguments.read("--csv", csv);
+    std::string size;
+    if (!arguments.read("--size", size) ||
+        (std::sscanf(size.c_str(), "%dx%d", &width, &height) == 2 && width > 0 && height > 0))
+        return true;
+    std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str());
+    return false;
 }

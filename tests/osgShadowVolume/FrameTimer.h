@@ -3,6 +3,8 @@
 
 #include <support/HeadlessViewer.h>
 
+#include <osg/ArgumentParser>
+
 #include <functional>
 #include <string>
 #include <utility>
@@ -28,6 +30,8 @@ public:
     /// Time of one frame after an untimed one of the same scene; `change` is called in between.
     FrameTime draw(osg::Node& scene, const support::CameraSpec& camera,
                    const std::function<void()>& change = {});
+    /// Time of one frame, whatever was drawn before.
+    FrameTime drawOnce(osg::Node& scene, const support::CameraSpec& camera);
 
 private:
     int _width, _height;
@@ -53,5 +57,13 @@ private:
     std::vector<std::pair<std::string, std::vector<double>>> _rows;
 };
 
-/// A "WxH" of the command line; false where it is not one.
-bool parseSize(const std::string& text, int& width, int& height);
+/// What every benchmark takes from its command line.
+struct BenchmarkOptions
+{
+    int width = 640, height = 480; ///< --size WxH
+    int rounds = 7;                ///< --rounds N, after one that does not count
+    std::string csv;               ///< --csv file
+
+    /// False, and a line on the error stream, where a size is none.
+    bool read(osg::ArgumentParser& arguments);
+};

@@ -78,15 +78,13 @@ Candidate makeCandidate(const std::string& name, osg::Node& model, double aspect
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
-    std::string size = "640x480", csv;
-    int rounds = 9, width = 0, height = 0, drawables = 30000;
-    arguments.read("--size", size);
-    arguments.read("--rounds", rounds);
+    BenchmarkOptions options;
+    options.rounds = 9;
+    int drawables = 30000;
     arguments.read("--drawables", drawables);
-    arguments.read("--csv", csv);
-    if (!parseSize(size, width, height))
-        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
-    FrameTimer timer(width, height);
+    if (!options.read(arguments))
+        return 2;
+    FrameTimer timer(options.width, options.height);
     if (!timer.isValid())
         return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
     timer.getViewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
@@ -99,7 +97,7 @@ int main(int argc, char** argv)
                 makeCandidate(osgDB::getStrippedName(name), *model, timer.getAspect()));
     }
     candidates.push_back(makeCandidate("grid", *makeGrid(drawables), timer.getAspect()));
-    for (int round = -1; round < rounds; ++round)
+    for (int round = -1; round < options.rounds; ++round)
         for (Candidate& candidate : candidates)
         {
             FrameTime times[NumMethods];
@@ -126,5 +124,5 @@ int main(int argc, char** argv)
         table.add(candidate.name, row);
     }
     table.print();
-    return table.write(csv) ? 0 : 1;
+    return table.write(options.csv) ? 0 : 1;
 }

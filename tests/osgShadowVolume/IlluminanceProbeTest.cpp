@@ -4,6 +4,9 @@
 #include <osgShadowVolume/IlluminanceProbe.h>
 #include <osgShadowVolume/Photometry.h>
 
+#include <support/NotifyCapture.h>
+
+#include <osg/Geometry>
 #include <osg/MatrixTransform>
 #include <osg/Switch>
 #include <osg/ValueObject>
@@ -211,6 +214,37 @@ TEST(IlluminanceProbeTest, withoutShadowsNothingCasts)
     settings.shadows = Shadows::OFF;
     EXPECT_NEAR(IlluminanceProbe(*room, settings).measure(osg::Vec3d(4.0, 3.0, 0.0)).lux, 160.0,
                 160.0 * FloatShare);
+}
+
+TEST(IlluminanceProbeTest, trianglesWithIndicesBeyondTheVerticesCastNothingAndWarnOnce)
+{
+    osg::ref_ptr<osg::Geometry> geometry = osg::createTexturedQuadGeometry(
+        osg::Vec3(0, -1, 1), osg::Vec3(1, 0, 0), osg::Vec3(0, 2, 0));
+    geometry->setName("torn");
+    // What OSG itself makes of such indices is its own affair.
+    geometry->setInitialBound(osg::BoundingBox(0, -1, 1, 1, 1, 1));
+    geometry->setComputeBoundingBoxCallback(new osg::Drawable::ComputeBoundingBoxCallback);
+    geometry->removePrimitiveSet(0);
+    osg::ref_ptr<osg::DrawElementsUInt> elements = new osg::DrawElementsUInt(GL_TRIANGLES);
+    for (const unsigned int i : {0u, 1u, 2u, 0u, 2u, 3u, 0u, 1u, 4000000000u})
+        elements->push_back(i);
+    geometry->addPrimitiveSet(elements);
+    osg::ref_ptr<osg::Group> scene = new osg::Group;
+    scene->addChild(geometry);
+    scene->addChild(measured::pointLight(1, osg::Vec3(0, 0, 2), "candela=400", *scene));
+    support::NotifyCapture capture;
+    for (int i = 0; i < 2; ++i)
+    {
+        const IlluminanceProbe probe = probeOf(*scene);
+        EXPECT_EQ(probe.getNumTriangles(), 2u);
+        EXPECT_EQ(probe.measure(osg::Vec3d(0.5, 0.0, 0.0)).lux, 0.0);
+        EXPECT_GT(probe.measure(osg::Vec3d(-0.5, 0.0, 0.0)).lux, 0.0);
+    }
+    EXPECT_EQ(
+        capture.takeWarnings(),
+        support::NotifyCapture::Lines{
+            "osgShadowVolume: drawable 'torn': 1 of its triangles casts no shadow, because an "
+            "index is beyond the vertices"});
 }
 
 TEST(IlluminanceProbeTest, whatIsUnknownIsNamed)

@@ -10,16 +10,14 @@
 //
 // Each number of lights is drawn at rest and with a moving camera (then light data and grid are
 // made anew each frame), in turns; printed are medians and what the plan says.
-#include <osgShadowVolume/LitScene.h>
+#include "FrameTimer.h"
 
-#include <support/HeadlessViewer.h>
+#include <osgShadowVolume/LitScene.h>
 
 #include <osg/ArgumentParser>
 #include <osg/Geometry>
 #include <osg/LightSource>
-#include <osg/Timer>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -60,38 +58,26 @@ osg::ref_ptr<osgShadowVolume::LitScene> makeScene(unsigned int lights, bool poin
     return scene;
 }
 
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0.0 : values[values.size() / 2];
-}
-
 } // namespace
 
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
-    std::string size = "320x240", csvName;
-    int rounds = 7, width = 0, height = 0;
-    arguments.read("--size", size);
-    arguments.read("--rounds", rounds);
+    BenchmarkOptions options;
+    options.width = 320;
+    options.height = 240;
     const bool points = arguments.read("--points");
     double tolerance = 0.5 / 255.0;
     arguments.read("--tolerance", tolerance);
-    arguments.read("--csv", csvName);
-    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2)
-        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
-    support::HeadlessSettings settings;
-    settings.width = width;
-    settings.height = height;
-    support::HeadlessViewer viewer(settings);
-    if (!viewer.isValid())
-        return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
-    viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
-
-    std::vector<unsigned int> numbers = {1, 8, 9, 32, 33, 64, 256, 1024, 4097, 16384, 65536};
     int most = 65536;
     arguments.read("--most", most);
+    if (!options.read(arguments))
+        return 2;
+    FrameTimer timer(options.width, options.height);
+    if (!timer.isValid())
+        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+
+    std::vector<unsigned int> numbers = {1, 8, 9, 32, 33, 64, 256, 1024, 4097, 16384, 65536};
     while (numbers.size() > 1 && numbers.back() > static_cast<unsigned int>(most))
         numbers.pop_back();
     std::vector<osg::ref_ptr<osgShadowVolume::LitScene>> scenes;
@@ -100,46 +86,30 @@ int main(int argc, char** argv)
     const auto cameraAt = [&](double shift)
     {
         return support::CameraSpec::perspective(osg::Vec3d(shift, -70.0, 50.0), osg::Vec3d(),
-                                                osg::Vec3d(0, 0, 1), 45.0, double(width) / height,
-                                                1.0, 500.0);
+                                                osg::Vec3d(0, 0, 1), 45.0, timer.getAspect(), 1.0,
+                                                500.0);
     };
     std::vector<std::vector<double>> resting(numbers.size()), moving(numbers.size());
-    for (int round = -1; round < rounds; ++round)
+    for (int round = -1; round < options.rounds; ++round)
         for (std::size_t i = 0; i < numbers.size(); ++i)
         {
-            viewer.render(scenes[i], cameraAt(0.0), width, height, 1);
-            osg::Timer_t start = osg::Timer::instance()->tick();
-            viewer.render(scenes[i], cameraAt(0.0), width, height, 1);
-            const double rest =
-                osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
-            start = osg::Timer::instance()->tick();
-            viewer.render(scenes[i], cameraAt(0.01 * (round + 2)), width, height, 1);
-            const double move =
-                osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+            const double rest = timer.draw(*scenes[i], cameraAt(0.0)).frame;
+            const double move = timer.drawOnce(*scenes[i], cameraAt(0.01 * (round + 2))).frame;
             if (round >= 0)
             {
                 resting[i].push_back(rest);
                 moving[i].push_back(move);
             }
         }
-    std::FILE* csv = csvName.empty() ? nullptr : std::fopen(csvName.c_str(), "w");
-    if (csv)
-        std::fprintf(csv, "lights,resting_ms,moving_ms,drawn,dropped,texture_bytes\n");
-    std::printf("%8s %12s %12s %8s %8s %14s\n", "lights", "resting ms", "moving ms", "drawn",
-                "dropped", "texture bytes");
+    Table table({"lights", "resting_ms", "moving_ms", "drawn", "dropped", "texture_bytes"});
     for (std::size_t i = 0; i < numbers.size(); ++i)
     {
         auto counts = scenes[i]->getPlans().empty() ? std::map<std::string, double>()
                                                     : scenes[i]->getPlans().back().counts;
-        std::printf("%8u %12.2f %12.2f %8.0f %8.0f %14.0f\n", numbers[i], median(resting[i]),
-                    median(moving[i]), counts["lights.drawn"], counts["lights.dropped"],
-                    counts["textureBytes"]);
-        if (csv)
-            std::fprintf(csv, "%u,%.3f,%.3f,%.0f,%.0f,%.0f\n", numbers[i], median(resting[i]),
-                         median(moving[i]), counts["lights.drawn"], counts["lights.dropped"],
-                         counts["textureBytes"]);
+        table.add(std::to_string(numbers[i]),
+                  {median(resting[i]), median(moving[i]), counts["lights.drawn"],
+                   counts["lights.dropped"], counts["textureBytes"]});
     }
-    if (csv)
-        std::fclose(csv);
-    return 0;
+    table.print();
+    return table.write(options.csv) ? 0 : 1;
 }

@@ -544,6 +544,25 @@ TEST(MirrorsGLTest, aCurvedMirrorWarnsOnceAndReflectsNothing)
               "it is not planar");
 }
 
+TEST(MirrorsGLTest, trianglesWithIndicesBeyondTheVerticesAreNoPartOfAMirror)
+{
+    OSGKITS_NEED_GL(viewer());
+    osg::ref_ptr<osg::Geode> torn = wall();
+    osg::Geometry& geometry = *torn->getDrawable(0)->asGeometry();
+    // What OSG itself makes of such indices is its own affair.
+    const osg::BoundingBox box = geometry.getBoundingBox();
+    geometry.setInitialBound(box);
+    geometry.setComputeBoundingBoxCallback(new osg::Drawable::ComputeBoundingBoxCallback);
+    geometry.removePrimitiveSet(0);
+    osg::ref_ptr<osg::DrawElementsUShort> elements = new osg::DrawElementsUShort(GL_TRIANGLES);
+    for (const GLushort i : {0, 1, 2, 0, 2, 3, 0, 1, 60000})
+        elements->push_back(i);
+    geometry.addPrimitiveSet(elements);
+    osg::ref_ptr<ShadowedScene> scene = wallScene(torn);
+    picture(*scene);
+    EXPECT_EQ(passesOf(*scene), 1.0);
+}
+
 TEST(MirrorsGLTest, unlitAndVertexLitMirrorsReflect)
 {
     OSGKITS_NEED_GL(viewer());

@@ -59,20 +59,17 @@ struct Candidate
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
-    std::string size = "640x480", csv;
-    int rounds = 7, width = 0, height = 0, most = 64, objects = 1000;
+    BenchmarkOptions options;
+    int most = 64, objects = 1000;
     float angle = 60.0f;
-    arguments.read("--size", size);
-    arguments.read("--rounds", rounds);
+    std::string picture;
     arguments.read("--most", most);
     arguments.read("--objects", objects);
     arguments.read("--angle", angle);
-    arguments.read("--csv", csv);
-    std::string picture;
     arguments.read("--picture", picture);
-    if (!parseSize(size, width, height))
-        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
-    FrameTimer timer(width, height);
+    if (!options.read(arguments))
+        return 2;
+    FrameTimer timer(options.width, options.height);
     if (!timer.isValid())
         return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
 
@@ -99,7 +96,7 @@ int main(int argc, char** argv)
         candidates.push_back(candidate);
     }
     const osg::ref_ptr<osg::Group> empty = new osg::Group;
-    for (int round = -1; round < rounds; ++round)
+    for (int round = -1; round < options.rounds; ++round)
         for (Candidate& candidate : candidates)
         {
             const double idle = timer.draw(*empty, camera).frame;
@@ -135,7 +132,8 @@ int main(int argc, char** argv)
     }
     table.print();
     if (!picture.empty())
-        osgDB::writeImageFile(
-            *timer.getViewer().render(candidates.back().scene, camera, width, height), picture);
-    return table.write(csv) ? 0 : 1;
+        osgDB::writeImageFile(*timer.getViewer().render(candidates.back().scene, camera,
+                                                        options.width, options.height),
+                              picture);
+    return table.write(options.csv) ? 0 : 1;
 }

@@ -174,21 +174,18 @@ void measure(FrameTimer& timer, Candidate& candidate, int round)
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
-    std::string size = "640x480", csv;
-    int rounds = 7, width = 0, height = 0, most = 1000000;
-    arguments.read("--size", size);
-    arguments.read("--rounds", rounds);
+    BenchmarkOptions options;
+    int most = 1000000;
     arguments.read("--most", most);
-    arguments.read("--csv", csv);
-    if (!parseSize(size, width, height))
-        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
-    FrameTimer timer(width, height);
+    if (!options.read(arguments))
+        return 2;
+    FrameTimer timer(options.width, options.height);
     if (!timer.isValid())
         return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
     std::vector<Candidate> candidates;
     for (int triangles = 1000; triangles <= most; triangles *= 10)
         candidates.push_back(makeCandidate(triangles));
-    for (int round = -1; round < rounds; ++round)
+    for (int round = -1; round < options.rounds; ++round)
         for (Candidate& candidate : candidates)
             measure(timer, candidate, round);
     Table table({"triangles", "tess_ms", "geometry_ms", "cpu_ms", "tess_moving_ms",
@@ -205,5 +202,5 @@ int main(int argc, char** argv)
         table.add(std::to_string(candidate.ball->getPrimitiveSet(0)->getNumIndices() / 3), row);
     }
     table.print();
-    return table.write(csv) ? 0 : 1;
+    return table.write(options.csv) ? 0 : 1;
 }

@@ -5,9 +5,10 @@
 //
 // Each model is drawn as stock OSG, with lighting=vertex and with lighting=pixel in turns; printed
 // are medians over the rounds and the median of the ratios of each round.
+#include "FrameTimer.h"
+
 #include <osgShadowVolume/LitScene.h>
 
-#include <support/HeadlessViewer.h>
 #include <support/InventorModels.h>
 
 #include <osg/ArgumentParser>
@@ -30,12 +31,6 @@ enum Method
     NumMethods
 };
 
-double median(std::vector<double> values)
-{
-    std::sort(values.begin(), values.end());
-    return values.empty() ? 0.0 : values[values.size() / 2];
-}
-
 struct Result
 {
     double milliseconds[NumMethods];
@@ -43,7 +38,7 @@ struct Result
     osgMultiRender::Plan plans[NumMethods];
 };
 
-Result measure(support::HeadlessViewer& viewer, osg::Node& model, int width, int height, int rounds)
+Result measure(support::HeadlessViewer& viewer, osg::Node& model, const BenchmarkOptions& options)
 {
     using osgShadowVolume::LitScene;
     osg::ref_ptr<osg::Switch> methods = new osg::Switch;
@@ -54,15 +49,16 @@ Result measure(support::HeadlessViewer& viewer, osg::Node& model, int width, int
     methods->addChild(&model);
     methods->addChild(vertex);
     methods->addChild(pixel);
-    const auto camera = support::CameraSpec::overview(model, double(width) / height);
+    const auto camera =
+        support::CameraSpec::overview(model, double(options.width) / options.height);
     std::vector<double> times[NumMethods], ratios[NumMethods];
-    for (int round = -2; round < rounds; ++round)
+    for (int round = -2; round < options.rounds; ++round)
     {
         double ms[NumMethods];
         for (int method = 0; method < NumMethods; ++method)
         {
             methods->setSingleChildOn(method);
-            viewer.render(methods, camera, width, height, round < 0 ? 3 : 1);
+            viewer.render(methods, camera, options.width, options.height, round < 0 ? 3 : 1);
             const osg::Timer_t start = osg::Timer::instance()->tick();
             viewer.getViewer().frame(0.0);
             ms[method] = osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
@@ -91,13 +87,10 @@ Result measure(support::HeadlessViewer& viewer, osg::Node& model, int width, int
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
-    std::string size = "640x480", csvName;
-    int rounds = 15, width = 0, height = 0;
-    arguments.read("--size", size);
-    arguments.read("--rounds", rounds);
-    arguments.read("--csv", csvName);
-    if (std::sscanf(size.c_str(), "%dx%d", &width, &height) != 2)
-        return std::fprintf(stderr, "--size wants WxH, not '%s'\n", size.c_str()), 2;
+    BenchmarkOptions options;
+    options.rounds = 15;
+    if (!options.read(arguments))
+        return 2;
     std::vector<std::string> models;
     for (int i = 1; i < argc; ++i)
         models.push_back(argv[i]);
@@ -105,12 +98,12 @@ int main(int argc, char** argv)
         models = support::inventorModels();
 
     support::HeadlessSettings settings;
-    settings.width = width;
-    settings.height = height;
+    settings.width = options.width;
+    settings.height = options.height;
     support::HeadlessViewer viewer(settings);
     if (!viewer.isValid())
         return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
-    std::FILE* csv = csvName.empty() ? nullptr : std::fopen(csvName.c_str(), "w");
+    std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
     if (csv)
         std::fprintf(csv,
                      "model,fixed_ms,vertex_ms,vertex_ratio,pixel_ms,pixel_ratio,drawables,states,"
@@ -122,7 +115,7 @@ int main(int argc, char** argv)
         osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(name);
         if (!model || !model->getBound().valid())
             continue;
-        Result r = measure(viewer, *model, width, height, rounds);
+        Result r = measure(viewer, *model, options);
         auto& counts = r.plans[Vertex].counts;
         const double vertexCompile = counts["programs.compileMilliseconds"];
         const double pixelCompile = r.plans[Pixel].counts["programs.compileMilliseconds"];

@@ -200,44 +200,42 @@ precision::Method makeMaps(const Shop& shop, const std::string& name, unsigned i
             }};
 }
 
-precision::Method makeStockMap(const Shop& shop)
+/// `set` is given the texels a side.
+precision::Method
+makeStockMaps(const Shop& shop, const std::string& name,
+              const std::function<void(osgShadow::ShadowedScene&, const osg::Vec2s&)>& set)
 {
-    const std::string name = "osgShadow::ShadowMap";
     return {name,
             "texels a side",
             {256, 1024, 4096},
             [=](double value)
             {
-                return shop->drawStock(name, value,
-                                       [=](auto& scene)
-                                       {
-                                           auto* const map = new osgShadow::ShadowMap;
-                                           map->setTextureSize(
-                                               osg::Vec2s(short(value), short(value)));
-                                           map->setAmbientBias(osg::Vec2(0.0f, 1.0f));
-                                           map->setLight(shop->getLight());
-                                           scene.setShadowTechnique(map);
-                                       });
+                const osg::Vec2s size{short(value), short(value)};
+                return shop->drawStock(name, value, [&](auto& scene) { set(scene, size); });
             }};
+}
+
+precision::Method makeStockMap(const Shop& shop)
+{
+    return makeStockMaps(shop, "osgShadow::ShadowMap",
+                         [=](auto& scene, const osg::Vec2s& size)
+                         {
+                             auto* const map = new osgShadow::ShadowMap;
+                             map->setTextureSize(size);
+                             map->setAmbientBias(osg::Vec2(0.0f, 1.0f));
+                             map->setLight(shop->getLight());
+                             scene.setShadowTechnique(map);
+                         });
 }
 
 precision::Method makeStockViewDependentMap(const Shop& shop)
 {
-    const std::string name = "osgShadow::ViewDependentShadowMap";
-    return {name,
-            "texels a side",
-            {256, 1024, 4096},
-            [=](double value)
-            {
-                return shop->drawStock(name, value,
-                                       [=](auto& scene)
-                                       {
-                                           scene.getShadowSettings()->setTextureSize(
-                                               osg::Vec2s(short(value), short(value)));
-                                           scene.setShadowTechnique(
-                                               new osgShadow::ViewDependentShadowMap);
-                                       });
-            }};
+    return makeStockMaps(shop, "osgShadow::ViewDependentShadowMap",
+                         [](auto& scene, const osg::Vec2s& size)
+                         {
+                             scene.getShadowSettings()->setTextureSize(size);
+                             scene.setShadowTechnique(new osgShadow::ViewDependentShadowMap);
+                         });
 }
 
 precision::Sweep makeShadowsSweep(const std::string& name, const std::string& title,

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgMultiRender/Export.h>
+
 #include <osg/GLExtensions>
 #include <osg/State>
 
-namespace osgShadowVolume
+#include <string>
+
+namespace osgMultiRender
 {
 
 /// A framebuffer object of one graphics context, without attachments of its own.
-class Framebuffer
+class OSGMULTIRENDER_EXPORT Framebuffer
 {
 public:
     /// `flipped`: its rows count from the top, as in windows of Mesa. Needs canFlip().
@@ -21,11 +25,15 @@ public:
     Framebuffer(const Framebuffer&) = delete;
     Framebuffer& operator=(const Framebuffer&) = delete;
 
-    /// Binds it for drawing, into colour attachment 0 or into depth alone. Attachments stay.
-    void bind(osg::State& state, bool color);
+    /// Binds it for drawing into the first `colors` colour attachments; 0 is depth alone.
+    /// Attachments stay.
+    void bind(osg::State& state, int colors);
     void releaseGLObjects(osg::State* state) const;
 
     static bool canFlip(const osg::State& state);
+    /// Of the framebuffer that is bound for drawing: empty, or why OpenGL can't draw into it, as in
+    /// "framebuffer status 0x8cd6".
+    static std::string whyIncomplete(const osg::State& state);
 
 private:
     const unsigned int _contextID;
@@ -35,7 +43,7 @@ private:
 
 /// While it lives, drawing may visit other framebuffers: it puts back the bindings, the viewport,
 /// the scissor and the values for clearing. There is no scissor test at first.
-class FramebufferVisit
+class OSGMULTIRENDER_EXPORT FramebufferVisit
 {
 public:
     explicit FramebufferVisit(osg::State& state);
@@ -53,4 +61,4 @@ private:
     GLint _scissor[4] = {};
 };
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender

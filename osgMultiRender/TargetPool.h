@@ -10,7 +10,7 @@
 #include <mutex>
 #include <vector>
 
-namespace osgShadowVolume
+namespace osgMultiRender
 {
 
 /// What views draw into before their surfaces, kept from frame to frame: views that are drawn one
@@ -69,4 +69,4 @@ private:
     std::map<unsigned int, std::vector<Free>> _free;
 };
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include <osgShadowVolume/Framebuffer.h>
+#include <osgMultiRender/Framebuffer.h>
 
 #include <osg/ContextData>
 #include <osg/FrameBufferObject>
 #include <osg/GLObjects>
 
+#include <sstream>
+
 #ifndef GL_FRAMEBUFFER_FLIP_Y_MESA
 #define GL_FRAMEBUFFER_FLIP_Y_MESA 0x8BBB
 #endif
 
-namespace osgShadowVolume
+namespace osgMultiRender
 {
 
 namespace
@@ -20,7 +22,7 @@ class FramebufferDeleter : public osg::GLObjectManager
 {
 public:
     explicit FramebufferDeleter(unsigned int contextID)
-        : osg::GLObjectManager("osgShadowVolume::FramebufferDeleter", contextID)
+        : osg::GLObjectManager("osgMultiRender::FramebufferDeleter", contextID)
     {
     }
     void deleteGLObject(GLuint id) override
@@ -36,7 +38,7 @@ Framebuffer::~Framebuffer()
     releaseGLObjects(nullptr);
 }
 
-void Framebuffer::bind(osg::State& state, bool color)
+void Framebuffer::bind(osg::State& state, int colors)
 {
     const auto* gl = state.get<osg::GLExtensions>();
     const bool isNew = !_id;
@@ -45,7 +47,12 @@ void Framebuffer::bind(osg::State& state, bool color)
     gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, _id);
     if (isNew && _flipped)
         gl->glFramebufferParameteri(GL_FRAMEBUFFER_EXT, GL_FRAMEBUFFER_FLIP_Y_MESA, GL_TRUE);
-    glDrawBuffer(color ? GL_COLOR_ATTACHMENT0_EXT : GL_NONE);
+    const GLenum buffers[] = {GL_COLOR_ATTACHMENT0_EXT, GL_COLOR_ATTACHMENT0_EXT + 1,
+                              GL_COLOR_ATTACHMENT0_EXT + 2, GL_COLOR_ATTACHMENT0_EXT + 3};
+    if (colors > 1)
+        gl->glDrawBuffers(colors, buffers);
+    else
+        glDrawBuffer(colors ? GL_COLOR_ATTACHMENT0_EXT : GL_NONE);
     glReadBuffer(GL_NONE);
 }
 
@@ -53,6 +60,17 @@ bool Framebuffer::canFlip(const osg::State& state)
 {
     return state.get<osg::GLExtensions>()->glFramebufferParameteri &&
            osg::isGLExtensionSupported(state.getContextID(), "GL_MESA_framebuffer_flip_y");
+}
+
+std::string Framebuffer::whyIncomplete(const osg::State& state)
+{
+    const GLenum status =
+        state.get<osg::GLExtensions>()->glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER_EXT);
+    if (status == GL_FRAMEBUFFER_COMPLETE_EXT)
+        return {};
+    std::ostringstream text;
+    text << "framebuffer status 0x" << std::hex << status;
+    return text.str();
 }
 
 void Framebuffer::releaseGLObjects(osg::State* state) const
@@ -91,4 +109,4 @@ FramebufferVisit::~FramebufferVisit()
     _state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
 }
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender

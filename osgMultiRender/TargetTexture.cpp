@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include <osgShadowVolume/TargetTexture.h>
+#include <osgMultiRender/TargetTexture.h>
 
 #include <osg/FrameBufferObject>
 #include <osg/GLExtensions>
 #include <osg/State>
 
-namespace osgShadowVolume
+#include <algorithm>
+#include <utility>
+
+namespace osgMultiRender
 {
 
 namespace
@@ -13,6 +16,45 @@ namespace
 
 constexpr GLenum texture2D = GL_TEXTURE_2D, texture2DArray = 0x8C1A, texture2DMultisample = 0x9100,
                  texture2DMultisampleArray = 0x9102;
+
+/// Format and type of transfers must fit the kind of the internal format, though nothing is sent.
+std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
+{
+    switch (internalFormat)
+    {
+    case GL_DEPTH_COMPONENT16:
+    case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH_COMPONENT32F:
+        return {GL_DEPTH_COMPONENT, GL_FLOAT};
+    case GL_R32UI:
+        return {GL_RED_INTEGER_EXT, GL_UNSIGNED_INT};
+    case GL_RG32F:
+        return {GL_RG, GL_FLOAT};
+    case GL_RGBA8:
+    case GL_RGB10_A2:
+    case GL_RGBA16:
+    case GL_RGBA16F_ARB:
+    case GL_RGBA32F_ARB:
+        return {GL_RGBA, GL_FLOAT};
+    default:
+        return {GL_RED, GL_FLOAT};
+    }
+}
+
+int bytesOf(GLint internalFormat)
+{
+    switch (internalFormat)
+    {
+    case GL_RG32F:
+    case GL_RGBA16:
+    case GL_RGBA16F_ARB:
+        return 8;
+    case GL_RGBA32F_ARB:
+        return 16;
+    default:
+        return 4;
+    }
+}
 
 } // namespace
 
@@ -73,13 +115,7 @@ void TargetTexture::apply(osg::State& state) const
         gl->glTexImage2DMultisample(target, _samples, _internalFormat, _width, _height, GL_TRUE);
     else
     {
-        // Formats of transfers must fit the kind of the internal format, though nothing is sent.
-        const bool isDepth = _internalFormat == GL_DEPTH_COMPONENT32F;
-        const bool isInteger = _internalFormat == GL_R32UI;
-        const GLenum format = isDepth     ? GL_DEPTH_COMPONENT
-                              : isInteger ? GL_RED_INTEGER_EXT
-                                          : GL_RED;
-        const GLenum type = isInteger ? GL_UNSIGNED_INT : GL_FLOAT;
+        const auto [format, type] = transferOf(_internalFormat);
         applyTexParameters(target, state);
         if (_layers)
             gl->glTexImage3D(target, 0, _internalFormat, _width, _height, depth, 0, format, type,
@@ -108,7 +144,8 @@ void TargetTexture::attach(osg::State& state, GLenum attachment, int layer) cons
 
 std::size_t TargetTexture::getBytes() const
 {
-    return std::size_t(_width) * _height * std::max(1, _layers) * _samples * 4;
+    return std::size_t(_width) * _height * std::max(1, _layers) * _samples *
+           bytesOf(_internalFormat);
 }
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgMultiRender/Export.h>
+
 #include <osg/Texture>
 
-namespace osgShadowVolume
+namespace osgMultiRender
 {
 
 /// A texture to render to, of one or several layers and samples; OSG has no multisampled arrays.
 ///
 /// Integer and float formats are read by texelFetch only.
-class TargetTexture : public osg::Texture
+class OSGMULTIRENDER_EXPORT TargetTexture : public osg::Texture
 {
 public:
     /// `layers` 0 makes a plain 2D texture, 1 and more an array. `samples` 1 is not multisampled.
     TargetTexture(GLenum internalFormat, int width, int height, int layers, int samples);
     TargetTexture(const TargetTexture& other,
                   const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
-    META_StateAttribute(osgShadowVolume, TargetTexture, TEXTURE)
+    META_StateAttribute(osgMultiRender, TargetTexture, TEXTURE)
 
     int compare(const osg::StateAttribute& other) const override;
     GLenum getTextureTarget() const override;
@@ -45,4 +47,4 @@ private:
     int _width = 0, _height = 0, _layers = 0, _samples = 1;
 };
 
-} // namespace osgShadowVolume
+} // namespace osgMultiRender
