@@ -357,14 +357,11 @@ TableLayout LabelTable::take(Reader& reader, std::size_t maxTextBytes, Sink& sin
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto& texts = _texts.words();
-    if (!reader.all && !reader.atOnce)
-    {
-        if (!sink.resize(TableBuffer::Texts, texts.size() * 4, 1))
-            reader.texts.add(0, texts.size());
-        if (!send(TableBuffer::Texts, texts, reader.texts, maxTextBytes / 4, sink))
-            return reader.layout;
-    }
-    sendAll(TableBuffer::Texts, texts, reader.texts, 1, reader.all, sink);
+    const bool isLost = !sink.resize(TableBuffer::Texts, texts.size() * 4, 1) || reader.all;
+    if (!isLost && !reader.atOnce &&
+        !send(TableBuffer::Texts, texts, reader.texts, maxTextBytes / 4, sink))
+        return reader.layout;
+    sendAll(TableBuffer::Texts, texts, reader.texts, 1, isLost, sink);
     const bool all = reader.all || reader.allRows;
     reader.rows.add(std::min(reader.sentRows, _rows.words().size()), _rows.words().size());
     reader.styles.add(std::min(reader.sentStyles, _rows.styles().size()), _rows.styles().size());

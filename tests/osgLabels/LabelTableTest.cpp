@@ -249,6 +249,25 @@ TEST(LabelTableTest, inPartsEachLabelShowsATextOfItsOwn)
         ASSERT_EQ(mirror.codesOf(id), table.getCodes(id));
 }
 
+TEST(LabelTableTest, buffersThatLoseTheirContentAreSentAnew)
+{
+    LabelTable table;
+    TableMirror mirror(table);
+    mirror.losesContent = true;
+    for (std::uint32_t id = 1; id <= 5000; ++id)
+    {
+        table.setCodes(id, tag(id));
+        if (id % 100)
+            continue;
+        mirror.take(16);
+        for (std::uint32_t earlier = 1; earlier < id; earlier += 50)
+        {
+            const Codes shown = mirror.codesOf(earlier);
+            ASSERT_TRUE(shown.empty() || shown == tag(earlier)) << earlier << " of " << id;
+        }
+    }
+}
+
 TEST(LabelTableTest, randomChangesReadBackDenseAndSparse)
 {
     for (const std::uint32_t spread : {1u, 3u, 7u, 100'003u})

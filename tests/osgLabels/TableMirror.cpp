@@ -17,9 +17,12 @@ constexpr std::uint32_t garbage = 0xDEADBEEFu;
 bool TableMirror::resize(TableBuffer buffer, std::size_t bytes, unsigned int)
 {
     auto& words = buffers[static_cast<std::size_t>(buffer)];
-    if (words.size() < bytes / 4)
-        words.resize(bytes / 4, garbage);
-    return true;
+    if (words.size() >= bytes / 4)
+        return true;
+    if (losesContent)
+        words.clear();
+    words.resize(bytes / 4, garbage);
+    return !losesContent;
 }
 
 void TableMirror::write(TableBuffer buffer, std::size_t offset, const void* data, std::size_t bytes)

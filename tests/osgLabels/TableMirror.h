@@ -31,6 +31,7 @@ public:
     void write(osgLabels::TableBuffer buffer, std::size_t offset, const void* data,
                std::size_t bytes) override;
 
+    bool losesContent = false; ///< When a buffer grows.
     osgLabels::TableLayout layout;
     std::size_t sent = 0; ///< Bytes of the last take.
     std::size_t calls = 0;
