@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelCollector.h>
 
+#include <osgLabels/PrimitiveRun.h>
+
 #include <osg/NodeVisitor>
 
 #include <algorithm>
@@ -48,9 +50,10 @@ std::size_t placeIn(Vector& all, std::vector<Index>& free)
 } // namespace
 
 LabelCollector::LabelCollector(std::shared_ptr<LabelTable> table,
-                               std::shared_ptr<const LabelSource> source, Encode encode)
+                               std::shared_ptr<const LabelSource> source, Encode encode,
+                               std::uint32_t firstIdentifier)
     : _table(std::move(table)), _source(std::move(source)), _encode(std::move(encode)),
-      _instances(1), _objects(1), _labels(1)
+      _offset(firstIdentifier - 1), _instances(1), _objects(1), _labels(1)
 {
 }
 
@@ -59,7 +62,12 @@ LabelCollector::~LabelCollector() = default;
 void LabelCollector::collect(const osg::Group& group)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    DrawableVisitor visitor([&](osg::Drawable& drawable) { entryOf(group, drawable); });
+    DrawableVisitor visitor(
+        [&](osg::Drawable& drawable)
+        {
+            if (!dynamic_cast<const PrimitiveRun*>(&drawable)) // its objects are a batch's
+                entryOf(group, drawable);
+        });
     const_cast<osg::Group&>(group).accept(visitor);
 }
 
@@ -154,7 +162,7 @@ std::uint32_t LabelCollector::addLabel(const LabelSource::Found& found, const os
     {
         identifier = static_cast<std::uint32_t>(placeIn(_labels, _freeLabels));
         _labels[identifier] = {found.text, key, original, 0, 0, depth};
-        _table->setCodes(identifier, _encode(found.text));
+        _table->setCodes(identifier + _offset, _encode(found.text));
     }
     Label& label = _labels[identifier];
     ++label.objects;
@@ -177,7 +185,7 @@ void LabelCollector::removeObject(std::uint32_t object)
             label.object = 0;
         return;
     }
-    _table->remove(identifier);
+    _table->remove(identifier + _offset);
     if (const auto found = _byPath.find(label.key);
         found != _byPath.end() && found->second == identifier)
         _byPath.erase(found);
@@ -260,7 +268,9 @@ std::vector<std::uint32_t> LabelCollector::takeNew()
 LabelCollector::Object LabelCollector::getObject(std::uint32_t object) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return object < _objects.size() ? _objects[object] : Object();
+    Object found = object < _objects.size() ? _objects[object] : Object();
+    found.identifier += found.identifier ? _offset : 0;
+    return found;
 }
 
 std::uint32_t LabelCollector::getObjectCount() const
@@ -273,29 +283,32 @@ bool LabelCollector::setText(std::uint32_t identifier, const std::string& utf8)
 {
     const LabelTable::Codes codes = _encode(utf8);
     std::lock_guard<std::mutex> lock(_mutex);
-    if (identifier >= _labels.size() || !_labels[identifier].objects)
+    const std::uint32_t label = identifier - _offset;
+    if (label >= _labels.size() || !_labels[label].objects)
         return false;
-    _labels[identifier].text = utf8;
+    _labels[label].text = utf8;
     return _table->setCodes(identifier, codes);
 }
 
 std::string LabelCollector::getText(std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return identifier < _labels.size() ? _labels[identifier].text : std::string();
+    const std::uint32_t label = identifier - _offset;
+    return label < _labels.size() ? _labels[label].text : std::string();
 }
 
 osg::NodePath LabelCollector::getNodePath(const osg::Group& group, std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (identifier >= _labels.size() || !_labels[identifier].objects)
+    const std::uint32_t index = identifier - _offset;
+    if (index >= _labels.size() || !_labels[index].objects)
         return {};
-    const Label& label = _labels[identifier];
+    const Label& label = _labels[index];
     std::size_t object = label.object;
     if (!object)
         object = static_cast<std::size_t>(std::find_if(_objects.begin(), _objects.end(),
                                                        [&](const Object& o)
-                                                       { return o.identifier == identifier; }) -
+                                                       { return o.identifier == index; }) -
                                           _objects.begin());
     for (osg::NodePath& path : pathsFrom(group, *_objects[object].drawable, mostInstances))
         if (path.size() > label.depth && hashOf(path, label.depth + 1) == label.key)
@@ -312,7 +325,7 @@ std::vector<std::uint32_t> LabelCollector::getIdentifiers() const
     std::vector<std::uint32_t> identifiers;
     for (std::size_t i = 1; i < _labels.size(); ++i)
         if (_labels[i].objects)
-            identifiers.push_back(static_cast<std::uint32_t>(i));
+            identifiers.push_back(static_cast<std::uint32_t>(i) + _offset);
     return identifiers;
 }
 

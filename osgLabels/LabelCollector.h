@@ -37,9 +37,10 @@ class OSGLABELS_EXPORT LabelCollector
 public:
     using Encode = std::function<LabelTable::Codes(const std::string& utf8)>;
 
-    /// Texts become codes by `encode`, which is called under the collector's lock.
+    /// Texts become codes by `encode`, which is called under the collector's lock. Identifiers
+    /// count from `firstIdentifier`.
     LabelCollector(std::shared_ptr<LabelTable> table, std::shared_ptr<const LabelSource> source,
-                   Encode encode);
+                   Encode encode, std::uint32_t firstIdentifier = 1);
     ~LabelCollector();
     LabelCollector(const LabelCollector&) = delete;
     LabelCollector& operator=(const LabelCollector&) = delete;
@@ -130,6 +131,7 @@ private:
     const std::shared_ptr<LabelTable> _table;
     const std::shared_ptr<const LabelSource> _source;
     const Encode _encode;
+    const std::uint32_t _offset; ///< From an index in _labels to an identifier.
 
     mutable std::mutex _mutex;
     std::unordered_map<const osg::Drawable*, std::size_t> _byDrawable;

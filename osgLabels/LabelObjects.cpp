@@ -3,25 +3,18 @@
 
 #include <osgLabels/LabelUnits.h>
 
-#include <osgUtil/RenderLeaf>
+#include <algorithm>
 
 namespace osgLabels
 {
 
-std::uint32_t LabelObjects::add(const osg::Drawable& drawable, const ObjectRecord& record)
+void LabelObjects::set(std::uint32_t object, const ObjectRecord& record)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const auto index = std::uint32_t(_records.size());
-    _indices[&drawable] = index;
-    _records.push_back(record.pack());
-    return index;
-}
-
-std::uint32_t LabelObjects::indexOf(const osgUtil::RenderLeaf& leaf) const
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    const auto found = _indices.find(leaf._drawable.get());
-    return found == _indices.end() ? 0 : found->second;
+    if (object >= _records.size())
+        _records.resize(object + 1);
+    _records[object] = record.pack();
+    _changed.push_back(object);
 }
 
 const osg::StateSet* LabelObjects::update(osg::State& state)
@@ -31,18 +24,45 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     if (!context.stateSet)
     {
         context.stateSet = new osg::StateSet;
-        context.texture = new BufferTexture(state.getContextID(), 4, false);
+        context.texture =
+            new BufferTexture(state.getContextID(), 4, BufferTexture::needsPages(state));
+        // Without OVERRIDE: a PrimitiveBatch brings its own.
         context.stateSet->setTextureAttribute(RecordsUnit, context.texture);
-        context.stateSet->addUniform(new osg::Uniform("osgLabels_objects", int(RecordsUnit)));
+        context.stateSet->addUniform(new osg::Uniform("osgLabels_records", int(RecordsUnit)));
     }
-    const std::size_t bytes = sizeof(_records.front());
+    constexpr std::size_t bytes = sizeof(Words);
     if (!context.texture->resize(state, _records.size() * bytes))
-        context.sent = 0;
-    if (context.sent < _records.size())
-        context.texture->write(state, context.sent * bytes, _records[context.sent].data(),
-                               (_records.size() - context.sent) * bytes);
-    context.sent = _records.size();
+    {
+        context.texture->write(state, 0, _records.data(), _records.size() * bytes);
+        context.changes = _changed.size();
+    }
+    std::vector<std::uint32_t> objects(_changed.begin() + std::ptrdiff_t(context.changes),
+                                       _changed.end());
+    context.changes = _changed.size();
+    std::sort(objects.begin(), objects.end());
+    for (std::size_t i = 0, end = 0; i < objects.size(); i = end)
+    {
+        for (end = i + 1; end < objects.size() && objects[end] <= objects[end - 1] + 1;)
+            ++end;
+        const std::size_t first = objects[i], last = objects[end - 1];
+        context.texture->write(state, first * bytes, &_records[first], (last + 1 - first) * bytes);
+    }
+    const bool allHave =
+        std::all_of(_contexts.begin(), _contexts.end(),
+                    [this](const auto& each) { return each.second.changes == _changed.size(); });
+    if (allHave)
+    {
+        _changed.clear();
+        for (auto& each : _contexts)
+            each.second.changes = 0;
+    }
     return context.stateSet.get();
+}
+
+std::size_t LabelObjects::getBytes() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _records.size() * sizeof(Words);
 }
 
 void LabelObjects::releaseGLObjects(osg::State* state)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelPass.h>
 
-#include <osgLabels/LabelScene.h>
 #include <osgLabels/LabelUnits.h>
+#include <osgLabels/PrimitiveRun.h>
 
 #include <osg/BlendFunc>
 #include <osg/ColorMask>
@@ -10,6 +10,9 @@
 #include <osg/GLExtensions>
 #include <osg/Viewport>
 
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
 #include <cmath>
 
 namespace osgLabels
@@ -31,7 +34,7 @@ constexpr unsigned int indexAttribute = 6;
 /// What OSG does not load.
 struct Extensions
 {
-    void(GL_APIENTRY* vertexAttribI1ui)(GLuint, GLuint) = nullptr;
+    void(GL_APIENTRY* vertexAttribI1i)(GLuint, GLint) = nullptr;
     void(GL_APIENTRY* clearBufferuiv)(GLenum, GLint, const GLuint*) = nullptr;
     void(GL_APIENTRY* clearBufferfv)(GLenum, GLint, const GLfloat*) = nullptr;
 
@@ -40,7 +43,7 @@ struct Extensions
         static const Extensions extensions = []
         {
             Extensions e;
-            osg::setGLExtensionFuncPtr(e.vertexAttribI1ui, "glVertexAttribI1ui");
+            osg::setGLExtensionFuncPtr(e.vertexAttribI1i, "glVertexAttribI1i");
             osg::setGLExtensionFuncPtr(e.clearBufferuiv, "glClearBufferuiv");
             osg::setGLExtensionFuncPtr(e.clearBufferfv, "glClearBufferfv");
             return e;
@@ -70,6 +73,15 @@ osg::Vec3d axisOf(LabelUp up)
     return {};
 }
 
+void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil::RenderLeaf&)>& f)
+{
+    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
+        for (const auto& leaf : graph->_leaves)
+            f(*leaf);
+    for (const auto& [number, inner] : bin.getRenderBinList())
+        forEachLeaf(*inner, f);
+}
+
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 {
     return osg::Matrixd::transform3x3(v, m);
@@ -77,7 +89,9 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 
 } // namespace
 
-LabelPass::LabelPass(const LabelScene& scene) : _resources(scene.getResources()) {}
+LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
+{
+}
 
 LabelPass::~LabelPass()
 {
@@ -85,16 +99,39 @@ LabelPass::~LabelPass()
         _resources->targets.release(_contextID, _targets);
 }
 
+void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
+{
+    if (!_resources || !_resources->collector)
+        return;
+    {
+        LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
+        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
+                    [&](const osgUtil::RenderLeaf& leaf)
+                    {
+                        const std::uint32_t object = objectOf(leaf, view);
+                        if (object)
+                            _objects.emplace(&leaf, object);
+                    });
+    }
+    _resources->fitNew();
+}
+
+std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
+{
+    const osg::Drawable& drawable = *leaf._drawable;
+    if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
+        return _resources->batches.getCount() ? 1 : 0;
+    return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
+}
+
 void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
 {
     osg::State& state = *renderInfo.getState();
     _contextID = state.getContextID();
-    frame.forEachLeaf(*this, [this](const osgUtil::RenderLeaf& leaf, bool)
-                      { _labelled += _resources->objects.indexOf(leaf) != 0; });
     _target = osgMultiRender::DrawTarget::current(state);
-    if (!_resources->glyphs)
-        _reason = "there is no font";
-    else if (_labelled == 0)
+    if (!_resources || !_resources->getError().empty())
+        _reason = _resources ? _resources->getError() : "they are not shown";
+    else if (_objects.empty())
         _reason = "nothing labelled is in view";
     else if (_target.several)
         _reason = "the view writes several color buffers";
@@ -109,6 +146,8 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
+    _targets = _resources->targets.acquire(
+        _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
 }
 
 void LabelPass::makeUnder(osg::State& state)
@@ -139,7 +178,8 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
 {
     if (!_reason.empty())
         return;
-    number = _resources->objects.indexOf(leaf);
+    const auto found = _objects.find(&leaf);
+    number = found == _objects.end() ? 0 : found->second;
     // What has no program of ours could not say that nothing is written on it.
     if (!ordered && state.isOpaque())
         key.output = Diverted;
@@ -172,18 +212,21 @@ SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
                                  "    osgLabels_outFootprint = vec4(0.0);\n";
         return snippet;
     }
-    const bool uniformIndex = key.output & OwnProgram;
-    if (uniformIndex)
-        snippet.fragment += "uniform uint osgLabels_index;\n";
+    if (key.output & OwnProgram)
+        snippet.fragment += "uniform int osgLabels_index;\n";
     else
     {
-        snippet.vertex = "in uint osgLabels_object;\nflat out uint osgLabels_index;\n";
-        snippet.vertexStatements =
-            "    osgLabels_index = osgLabels_object + uint(gl_InstanceID);\n";
-        snippet.attributes.push_back({"osgLabels_object", indexAttribute});
-        snippet.fragment += "flat in uint osgLabels_index;\n";
+        // A PrimitiveBatch' VertexSnippet has the attribute already.
+        snippet.vertex = "#ifndef OSGLABELS_OBJECT\n"
+                         "#define OSGLABELS_OBJECT\n"
+                         "layout(location = 6) in int osgLabels_object;\n"
+                         "#endif\n"
+                         "flat out int osgLabels_index;\n";
+        snippet.vertexStatements = "    osgLabels_index = osgLabels_object + gl_InstanceID;\n";
+        snippet.fragment += "flat in int osgLabels_index;\n";
     }
-    snippet.fragment += LabelSources::locate("int(osgLabels_index)", key.output & Paged);
+    // Its records lie in a texture buffer of its own.
+    snippet.fragment += LabelSources::locate(key.output & Paged, key.instance == 0);
     if (!diverted)
         snippet.fragment += LabelSources::ink();
     snippet.statements = "    osgLabels_Text osgLabels_text;\n"
@@ -254,9 +297,9 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
     if (bits & OwnProgram)
-        gl->glUniform1ui(program.getUniformLocation(indexName), number);
+        gl->glUniform1i(program.getUniformLocation(indexName), GLint(number));
     else
-        Extensions::instance().vertexAttribI1ui(indexAttribute, number);
+        Extensions::instance().vertexAttribI1i(indexAttribute, GLint(number));
     Applied& applied = _applied[&variant];
     if (applied.isSet && applied.modelview == leaf._modelview.get() &&
         applied.projection == leaf._projection.get())
@@ -273,9 +316,6 @@ bool LabelPass::diverts(const SurfaceItem& item) const
 void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw)
 {
     osg::State& state = *renderInfo.getState();
-    if (!_targets)
-        _targets = _resources->targets.acquire(
-            _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
     {
         osgMultiRender::FramebufferVisit visit(state);
         osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
@@ -289,6 +329,7 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
             clear(state);
         draw();
         state.popStateSet();
+        answerPick(state);
     }
     composite(renderInfo);
     ++_passes;
@@ -306,6 +347,19 @@ void LabelPass::clear(osg::State& state) const
     const GLfloat far = 1.0f;
     gl.clearBufferfv(GL_DEPTH, 0, &far);
     state.popStateSet();
+}
+
+void LabelPass::answerPick(osg::State& state)
+{
+    const std::optional<LabelPick::Point> point = _resources->pick.takeQuestion();
+    if (!point)
+        return;
+    const auto pixel = [](double at, int first, int size)
+    { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
+    const unsigned int identifier =
+        _targets->readIdentifier(state, pixel(point->x, _viewport[0], _viewport[2]),
+                                 pixel(point->y, _viewport[1], _viewport[3]));
+    _resources->pick.answer(identifier == LabelTargets::Nothing ? 0 : identifier);
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)
@@ -357,10 +411,21 @@ void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
         return;
     }
     plan.entries.push_back({"labels", Decision::Drawn,
-                            std::to_string(_labelled) + " drawables, " + std::to_string(_direct) +
+                            std::to_string(_objects.size()) + " drawables, " +
+                                std::to_string(_direct) +
                                 " of them blended or sorted, labelled as they are drawn"});
-    plan.counts["labels.drawables"] = _labelled;
+    plan.counts["labels.drawables"] = double(_objects.size());
     plan.counts["labels.direct"] = _direct;
+    const LabelTable::Sizes sizes = _resources->table->getSizes();
+    plan.counts["labels.count"] = double(sizes.labels);
+    plan.counts["labels.texts"] = double(sizes.texts);
+    plan.counts["labels.bitsPerGlyph"] = sizes.bits;
+    plan.counts["labels.textBytes"] = double(sizes.textBytes);
+    plan.counts["labels.rowBytes"] = double(sizes.rowBytes);
+    plan.counts["labels.styleBytes"] = double(sizes.styleBytes);
+    plan.counts["labels.recordBytes"] = double(_resources->objects.getBytes());
+    plan.counts["labels.glyphBytes"] = double(_resources->getAtlasBytes());
+    plan.counts["labels.targetBytes"] = double(_targets->getBytes());
 }
 
 } // namespace osgLabels

@@ -15,8 +15,6 @@
 namespace osgLabels
 {
 
-class LabelScene;
-
 /// Bits of SurfaceKey::output.
 enum OutputBits : std::uint32_t
 {
@@ -30,13 +28,15 @@ enum OutputBits : std::uint32_t
 class LabelPass : public osgMultiRender::SurfacePass
 {
 public:
-    explicit LabelPass(const LabelScene& scene);
+    /// Null: labels are not shown.
+    explicit LabelPass(std::shared_ptr<LabelResources> resources);
     ~LabelPass() override;
 
     osgMultiRender::SurfaceRole getRole() const override
     {
         return osgMultiRender::SurfaceRole::Output;
     }
+    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
     void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
@@ -63,6 +63,8 @@ private:
 
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
     void clear(osg::State& state) const;
+    std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
+    void answerPick(osg::State& state);
     void composite(osg::RenderInfo& renderInfo);
     void makeUnder(osg::State& state);
 
@@ -74,7 +76,9 @@ private:
     GLint _viewport[4] = {};
     osgMultiRender::DrawTarget _target;
     osg::Vec3d _up; ///< Of the world, in eye coordinates.
-    unsigned int _labelled = 0, _direct = 0, _passes = 0;
+    /// Labelled objects in view: their numbers.
+    std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
+    unsigned int _direct = 0, _passes = 0;
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

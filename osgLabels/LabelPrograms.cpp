@@ -38,9 +38,14 @@ std::string tableText(bool isPaged)
 
 } // namespace
 
-std::string LabelSources::locate(const std::string& index, bool isPaged)
+std::string LabelSources::locate(bool isPaged, bool hasPagedRecords)
 {
-    return "#define OSGLABELS_OBJECT " + index + "\n" + tableText(isPaged) + placementSource() +
+    const char* records =
+        hasPagedRecords ? "#define OSGLABELS_RECORDS osgLabels_Buffer\n"
+                          "#define OSGLABELS_RECORD(i) osgLabels_texel(osgLabels_records, i)\n"
+                        : "#define OSGLABELS_RECORDS usamplerBuffer\n"
+                          "#define OSGLABELS_RECORD(i) texelFetch(osgLabels_records, int(i))\n";
+    return tableText(isPaged) + placementSource() + records +
            fragmentText("target.frag", shaders::target_frag);
 }
 

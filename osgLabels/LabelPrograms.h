@@ -16,8 +16,9 @@ namespace osgLabels
 struct LabelSources
 {
     /// Declares osgLabels_locate(): identifier and place of the fragment.
-    /// `index` is GLSL for the index of its object record.
-    static std::string locate(const std::string& index, bool isPaged);
+    /// Needs an int osgLabels_index. `isPaged`: buffers are 2D arrays; `hasPagedRecords`: those of
+    /// the object records, too, where the others are.
+    static std::string locate(bool isPaged, bool hasPagedRecords);
     /// Declares osgLabels_over(): the colour of a surface with its label.
     static std::string ink();
 };

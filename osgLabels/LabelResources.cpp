@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelResources.h>
 
+#include <osgLabels/DrawableFit.h>
 #include <osgLabels/LabelUnits.h>
 
 #include <osg/Notify>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace osgLabels
 {
@@ -18,47 +20,86 @@ void warn(const std::string& line)
     OSG_WARN << "osgLabels::LabelScene: " << line << std::endl;
 }
 
-std::shared_ptr<GlyphSet> makeGlyphs(const LabelSettings& settings)
+LabelSourceSettings sourceOf(const LabelSettings& settings)
 {
-    std::string error;
-    std::shared_ptr<FontFace> face = FontFace::openOrDefault(settings.font, error);
-    if (!error.empty())
-        warn(face ? error + "; " + face->getFile() + " is used" : error);
-    if (!face)
-        return nullptr;
-    return std::make_shared<GlyphSet>(
-        face, settings.proportional ? Spacing::Proportional : Spacing::Cells, warn);
+    LabelSourceSettings source;
+    source.match = settings.match;
+    const std::string value = "value:";
+    if (settings.source == "description")
+        source.from = LabelFrom::DESCRIPTION;
+    else if (settings.source.compare(0, value.size(), value) == 0)
+    {
+        source.from = LabelFrom::VALUE;
+        source.value = settings.source.substr(value.size());
+    }
+    else if (settings.source != "name")
+    {
+        source.from = LabelFrom::TABLE;
+        source.table = settings.source;
+    }
+    return source;
 }
 
-osg::ref_ptr<GlyphAtlas> makeAtlas(const LabelSettings& settings,
-                                   const std::shared_ptr<GlyphSet>& glyphs)
+float widestOutline(const LabelSettings& settings)
 {
-    if (!glyphs)
-        return nullptr;
     float outline = 0.0f;
     for (const LabelStyle& style : settings.styles)
         outline = std::max(outline, style.outlineWidth);
-    osg::ref_ptr<GlyphAtlas> atlas = new GlyphAtlas(glyphs, outline);
-    atlas->setLegibleSize(settings.readable);
-    return atlas;
+    return outline;
 }
 
 } // namespace
 
-LabelResources::LabelResources(const LabelSettings& s)
-    : settings(s), glyphs(makeGlyphs(s)), _atlas(makeAtlas(s, glyphs))
+LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : settings(s)
 {
     table->setMessage(warn);
+    std::shared_ptr<FontFace> face = FontFace::openOrDefault(settings.font, _error);
+    if (face && !_error.empty())
+    {
+        warn(_error + "; " + face->getFile() + " is used");
+        _error.clear();
+    }
+    const std::shared_ptr<const LabelSource> source =
+        face ? LabelSource::create(sourceOf(settings), _error) : nullptr;
+    if (!source)
+    {
+        warn(_error + "; there are no labels");
+        return;
+    }
+    _glyphs = std::make_shared<GlyphSet>(
+        face, settings.proportional ? Spacing::Proportional : Spacing::Cells, warn);
+    _atlas = new GlyphAtlas(_glyphs, widestOutline(settings));
+    _atlas->setLegibleSize(settings.readable);
+    const std::uint32_t next =
+        batches.collect(group, *source, 1,
+                        [this](std::uint32_t identifier, const std::string& text)
+                        { table->setCodes(identifier, encode(text)); });
+    collector = std::make_unique<LabelCollector>(
+        table, source, [this](const std::string& text) { return encode(text); }, next);
+    collector->collect(group);
+    fitNew();
 }
 
-bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
+LabelTable::Codes LabelResources::encode(const std::string& text)
 {
-    if (!glyphs)
-        return false;
-    thread_local LabelTable::Codes codes;
-    codes.clear();
-    glyphs->appendCodes(text, codes);
-    return table->setCodes(identifier, codes);
+    return _glyphs->codesOf(text);
+}
+
+void LabelResources::fitNew()
+{
+    if (!collector)
+        return;
+    std::unordered_map<const osg::Drawable*, FittedShape> fits; // instances share theirs
+    for (const std::uint32_t object : collector->takeNew())
+    {
+        const LabelCollector::Object found = collector->getObject(object);
+        if (!found.drawable)
+            continue;
+        auto fit = fits.find(found.drawable.get());
+        if (fit == fits.end())
+            fit = fits.emplace(found.drawable.get(), fitDrawable(*found.drawable)).first;
+        objects.set(object, fit->second.record(found.identifier));
+    }
 }
 
 void LabelResources::update(osg::State& state, osg::StateSet& into)
@@ -68,6 +109,40 @@ void LabelResources::update(osg::State& state, osg::StateSet& into)
     std::lock_guard<std::mutex> lock(_atlasMutex);
     _atlas->update();
     _atlas->apply(into, GlyphsUnit);
+}
+
+bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
+{
+    if (!collector)
+        return false;
+    if (batches.find(identifier).batch)
+        return table->setCodes(identifier, encode(text));
+    return collector->setText(identifier, text);
+}
+
+std::string LabelResources::getText(std::uint32_t identifier) const
+{
+    if (!collector)
+        return {};
+    const LabelBatches::Found found = batches.find(identifier);
+    return found.batch ? found.batch->getObjectName(found.object) : collector->getText(identifier);
+}
+
+std::string LabelResources::getPath(osg::Group& group, std::uint32_t identifier) const
+{
+    if (!collector)
+        return {};
+    const LabelBatches::Found found = batches.find(identifier);
+    osg::NodePath path;
+    if (!found.batch)
+        path = collector->getNodePath(group, identifier);
+    else if (const osg::NodePathList paths = found.batch->getParentalNodePaths(&group);
+             !paths.empty())
+        path = paths.front();
+    std::string text;
+    for (const osg::Node* node : path)
+        text += "/" + (node->getName().empty() ? std::string(node->className()) : node->getName());
+    return found.batch ? text + "/object " + std::to_string(found.object) : text;
 }
 
 void LabelResources::releaseGLObjects(osg::State* state)

@@ -3,8 +3,11 @@
 
 #include <osgLabels/GlyphAtlas.h>
 #include <osgLabels/GlyphSet.h>
+#include <osgLabels/LabelBatches.h>
 #include <osgLabels/LabelBuffers.h>
+#include <osgLabels/LabelCollector.h>
 #include <osgLabels/LabelObjects.h>
+#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelPrograms.h>
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTable.h>
@@ -21,27 +24,44 @@ namespace osgLabels
 class LabelResources
 {
 public:
-    explicit LabelResources(const LabelSettings& settings);
+    /// Collects the labels of `group`, while nobody changes its subgraph. Where a setting names
+    /// what is not there, says so and does without labels.
+    LabelResources(const LabelSettings& settings, osg::Group& group);
 
-    /// False without a font, or for an identifier out of range.
-    bool setText(std::uint32_t identifier, const std::string& text);
+    /// Why there are no labels; empty where there may be.
+    const std::string& getError() const { return _error; }
+
+    /// Fits shapes to the objects that the collector has found since the last call.
+    void fitNew();
     /// Texts, glyphs and records on the GPU, as they are now; for the current context.
     void update(osg::State& state, osg::StateSet& into);
 
+    /// UTF-8. False for an identifier that no object has.
+    bool setText(std::uint32_t identifier, const std::string& text);
+    std::string getText(std::uint32_t identifier) const;
+    std::string getPath(osg::Group& group, std::uint32_t identifier) const;
+
+    std::size_t getAtlasBytes() const { return _atlas ? _atlas->getBytes() : 0; }
     void releaseGLObjects(osg::State* state);
 
     const LabelSettings settings;
-    const std::shared_ptr<GlyphSet> glyphs; ///< Null without any font.
     const std::shared_ptr<LabelTable> table = std::make_shared<LabelTable>();
     LabelBuffers buffers{table};
     LabelObjects objects;
+    LabelBatches batches;
+    std::unique_ptr<LabelCollector> collector; ///< Null where there is an error.
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;
+    LabelPick pick;
     const osg::ref_ptr<osg::Geometry> screen = osgMultiRender::makeScreenTriangle();
 
 private:
+    LabelTable::Codes encode(const std::string& text);
+
+    std::string _error;
+    std::shared_ptr<GlyphSet> _glyphs;
     std::mutex _atlasMutex;
-    const osg::ref_ptr<GlyphAtlas> _atlas;
+    osg::ref_ptr<GlyphAtlas> _atlas;
 };
 
 } // namespace osgLabels

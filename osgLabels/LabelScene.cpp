@@ -1,32 +1,72 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelScene.h>
 
-#include <osgLabels/DrawableFit.h>
+#include <osgLabels/LabelKeys.h>
 #include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelPass.h>
 #include <osgLabels/LabelResources.h>
 
 #include <osg/Notify>
+#include <osgGA/EventVisitor>
 
 namespace osgLabels
 {
 
-LabelScene::LabelScene() = default;
+namespace
+{
+
+/// Drawables that are looked at in each frame, whether they are still where they were.
+constexpr std::size_t sweptPerFrame = 256;
+
+} // namespace
+
+LabelScene::LabelScene()
+{
+    // So that parents lead event visitors here; not for children, which have their own.
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
+}
 
 LabelScene::LabelScene(const LabelScene& other, const osg::CopyOp& copyop)
-    : osgMultiRender::SurfaceGroup(other, copyop), _settings(other._settings)
+    : osgMultiRender::SurfaceGroup(other, copyop), _settings(other._settings),
+      _isShown(other._isShown)
 {
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
 LabelScene::~LabelScene() = default;
 
 bool LabelScene::setText(std::uint32_t identifier, const std::string& text)
 {
-    return _resources && _resources->setText(identifier, text);
+    const std::shared_ptr<LabelResources> resources = getResources();
+    return resources && resources->setText(identifier, text);
+}
+
+std::string LabelScene::getText(std::uint32_t identifier) const
+{
+    const std::shared_ptr<LabelResources> resources = getResources();
+    return resources ? resources->getText(identifier) : std::string();
+}
+
+void LabelScene::pick(double x, double y)
+{
+    if (const std::shared_ptr<LabelResources> resources = getResources())
+        resources->pick.ask({x, y});
+}
+
+std::optional<LabelScene::Picked> LabelScene::takePicked()
+{
+    const std::shared_ptr<LabelResources> resources = getResources();
+    const std::optional<std::uint32_t> identifier =
+        resources ? resources->pick.takeAnswer() : std::nullopt;
+    if (!identifier)
+        return std::nullopt;
+    return Picked{*identifier, resources->getText(*identifier),
+                  resources->getPath(*this, *identifier)};
 }
 
 void LabelScene::setSettings(const LabelSettings& settings)
 {
+    std::lock_guard<std::mutex> lock(_mutex);
     _settings = settings;
     _resources.reset();
 }
@@ -45,49 +85,40 @@ std::string LabelScene::getSettingsText() const
     return formatLabelOptions(_settings);
 }
 
-namespace
+std::shared_ptr<LabelResources> LabelScene::getResources() const
 {
-class Interim : public osg::NodeVisitor
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _resources;
+}
+
+void LabelScene::collect()
 {
-public:
-    Interim(LabelScene& s) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), scene(s) {}
-    void apply(osg::Drawable& drawable) override
-    {
-        ObjectRecord r = fitDrawable(drawable).record(last + 1);
-        std::string name;
-        for (auto i = getNodePath().rbegin(); i != getNodePath().rend() && name.empty(); ++i)
-            name = (*i)->getName();
-        r.identifier = ++last;
-        scene.setText(last, name.empty() ? "unnamed" : name);
-        scene.getResources()->objects.add(drawable, r);
-    }
-    LabelScene& scene;
-    std::uint32_t last = 0;
-};
-} // namespace
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_resources)
+        _resources = std::make_shared<LabelResources>(_settings, *this);
+    else if (_resources->collector)
+        _resources->collector->sweep(*this, sweptPerFrame);
+}
 
 void LabelScene::traverse(osg::NodeVisitor& visitor)
 {
-    if (!_resources && visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR)
-    {
-        _resources = std::make_shared<LabelResources>(_settings);
-        Interim i(*this);
-        for (unsigned int c = 0; c < getNumChildren(); ++c)
-            getChild(c)->accept(i);
-    }
+    if (visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR && _isShown)
+        collect();
+    else if (auto* events = dynamic_cast<osgGA::EventVisitor*>(&visitor); events && _settings.keys)
+        answerKeys(*this, *events);
     osgMultiRender::SurfaceGroup::traverse(visitor);
 }
 
 void LabelScene::releaseGLObjects(osg::State* state) const
 {
     osgMultiRender::SurfaceGroup::releaseGLObjects(state);
-    if (_resources)
-        _resources->releaseGLObjects(state);
+    if (const std::shared_ptr<LabelResources> resources = getResources())
+        resources->releaseGLObjects(state);
 }
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
-    return std::make_unique<LabelPass>(*this);
+    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr);
 }
 
 } // namespace osgLabels

@@ -8,6 +8,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
 
 namespace osgLabels
 {
@@ -34,6 +37,25 @@ public:
     bool setText(std::uint32_t identifier, const std::string& text);
 
     /// Counts from the next traversal on; not while one runs. Labels are collected anew.
+    std::string getText(std::uint32_t identifier) const;
+
+    /// What is at a point of a picture.
+    struct Picked
+    {
+        std::uint32_t identifier = 0; ///< 0: nothing labelled.
+        std::string text;
+        std::string path; ///< Names of the nodes from this one down, "/scene/pump/P-101".
+    };
+    /// Asks the view that is drawn next; `x` and `y` from -1 to 1 from its lower left corner.
+    /// Opaque surfaces count.
+    void pick(double x, double y);
+    /// The answer, once; none before it is there.
+    std::optional<Picked> takePicked();
+
+    /// Whether labels are drawn.
+    void setShown(bool shown) { _isShown = shown; }
+    bool isShown() const { return _isShown; }
+
     void setSettings(const LabelSettings& settings);
     const LabelSettings& getSettings() const { return _settings; }
     /// As text, see parseLabelOptions(): all that differ from the defaults.
@@ -43,8 +65,8 @@ public:
     void traverse(osg::NodeVisitor& visitor) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
-    /// What views share; for the passes.
-    const std::shared_ptr<LabelResources>& getResources() const { return _resources; }
+    /// What views share; null before the first cull traversal.
+    std::shared_ptr<LabelResources> getResources() const;
 
 protected:
     ~LabelScene() override;
@@ -52,8 +74,12 @@ protected:
     std::unique_ptr<osgMultiRender::SurfacePass> createPass() const override;
 
 private:
+    void collect();
+
     LabelSettings _settings;
-    std::shared_ptr<LabelResources> _resources; ///< Null before the first traversal.
+    bool _isShown = true;
+    mutable std::mutex _mutex;
+    std::shared_ptr<LabelResources> _resources;
 };
 
 } // namespace osgLabels

@@ -137,6 +137,17 @@ std::optional<std::string> LabelSource::textOf(const osg::Node& node) const
     return first == descriptions.end() ? std::nullopt : std::make_optional(*first);
 }
 
+std::optional<std::string> LabelSource::ofName(const std::string& name) const
+{
+    if (name.empty() || (_settings.from != LabelFrom::NAME && _settings.from != LabelFrom::TABLE))
+        return std::nullopt;
+    const std::optional<std::string> text = formatted(name);
+    if (!text || _settings.from == LabelFrom::NAME)
+        return text;
+    const auto found = _texts.find(name);
+    return found == _texts.end() ? std::nullopt : std::make_optional(found->second);
+}
+
 std::optional<LabelSource::Found> LabelSource::find(const osg::NodePath& path) const
 {
     for (std::size_t depth = path.size(); depth-- > 0;)

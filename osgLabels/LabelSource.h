@@ -58,6 +58,9 @@ public:
     /// The text of the last node of a path; none where it has no label.
     std::optional<Found> find(const osg::NodePath& path) const;
 
+    /// The text of an object that has a name and nothing else; none without a label.
+    std::optional<std::string> ofName(const std::string& name) const;
+
     /// Whether a name says what the node is.
     static bool hasName(const osg::Node& node);
 

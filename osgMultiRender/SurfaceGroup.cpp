@@ -216,7 +216,8 @@ void SurfaceGroup::setPlan(const osg::Camera* camera, Plan plan)
     _compiled += plan.counts["programs.compiledThisFrame"];
     plan.counts["programs.compiled"] = _compiled;
     // States that are drawn by a program that another one has brought in.
-    plan.counts["programs.reused"] = plan.counts["states"] - plan.counts["variants"];
+    plan.counts["programs.reused"] =
+        std::max(0.0, plan.counts["states"] - plan.counts["variants"]);
     _plans[index].plan = std::move(plan);
     OSG_INFO << toString(_plans[index].plan) << std::flush;
 }

@@ -1,7 +1,6 @@
 // Says where on its label a fragment lies, from gl_FragCoord alone: so any vertex stage will do, and
 // what is near the eye is exact, however long the object is.
-//
-// OSGLABELS_OBJECT is the index of the object's record.
+// osgLabels_index is that of the object's record.
 
 uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
 // Local coordinates: what (ndc.x w, ndc.y w, w or ndc.z) weigh and what is added, relative to the
@@ -9,13 +8,13 @@ uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
 // rays are parallel, else 0.
 uniform vec3 osgLabels_frame[10];
 uniform vec2 osgLabels_layoutOfText; // height as a share of the room, least gap in em
-uniform usamplerBuffer osgLabels_objects;
+uniform OSGLABELS_RECORDS osgLabels_records;
 
 osgLabels_Object osgLabels_objectOf(int index)
 {
-    uvec4 a = texelFetch(osgLabels_objects, 3 * index);
-    uvec4 b = texelFetch(osgLabels_objects, 3 * index + 1);
-    uvec4 c = texelFetch(osgLabels_objects, 3 * index + 2);
+    uvec4 a = OSGLABELS_RECORD(3u * uint(index));
+    uvec4 b = OSGLABELS_RECORD(3u * uint(index) + 1u);
+    uvec4 c = OSGLABELS_RECORD(3u * uint(index) + 2u);
     return osgLabels_Object(uintBitsToFloat(a), uintBitsToFloat(b.xyz), b.w,
                             uintBitsToFloat(c.xyz), c.w);
 }
@@ -36,7 +35,7 @@ uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprin
     place = vec2(-1.0);
     footprint = mat2(0.0);
     text = osgLabels_Text(0u, 0);
-    osgLabels_Object object = osgLabels_objectOf(OSGLABELS_OBJECT);
+    osgLabels_Object object = osgLabels_objectOf(osgLabels_index);
     if (object.id == 0u)
         return 0u;
     text = osgLabels_textOf(object.id);

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/LabelKeys.h>
+
+#include <osgLabels/LabelScene.h>
+
+#include <osg/ApplicationUsage>
+#include <osg/Notify>
+#include <osgGA/EventVisitor>
+
+#include <string>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+using KeyEvent = osgGA::GUIEventAdapter;
+
+[[maybe_unused]] const bool isInUsage = []
+{
+    for (const LabelKey& key : labelKeys())
+        osg::ApplicationUsage::instance()->addKeyboardMouseBinding(std::string(1, key.key),
+                                                                   key.help);
+    return true;
+}();
+
+void printPicked(LabelScene& scene)
+{
+    const std::optional<LabelScene::Picked> picked = scene.takePicked();
+    if (!picked)
+        return;
+    const std::string line = picked->identifier ? std::to_string(picked->identifier) + " '" +
+                                                      picked->text + "' " + picked->path
+                                                : "nothing labelled is there";
+    OSG_NOTICE << "osgLabels: " << line << std::endl;
+}
+
+void answer(char key, LabelScene& scene, const KeyEvent& event)
+{
+    if (key == 'I')
+        scene.pick(event.getXnormalized(), event.getYnormalized());
+    else
+        scene.setShown(!scene.isShown());
+}
+
+} // namespace
+
+const std::vector<LabelKey>& labelKeys()
+{
+    static const std::vector<LabelKey> keys = {
+        {'I', "Prints identifier, text and nodes of the object under the mouse"},
+        {'L', "Labels, shown or not"},
+    };
+    return keys;
+}
+
+void answerKeys(LabelScene& scene, osgGA::EventVisitor& visitor)
+{
+    printPicked(scene);
+    for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
+    {
+        KeyEvent* event = each->asGUIEventAdapter();
+        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
+            continue;
+        for (const LabelKey& key : labelKeys())
+            if (event->getKey() == key.key)
+            {
+                answer(key.key, scene, *event);
+                event->setHandled(true);
+                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
+                    viewer->requestRedraw();
+            }
+    }
+}
+
+} // namespace osgLabels
