@@ -248,6 +248,40 @@ bool fillCombine(const osg::TexEnvCombine& combine, unsigned int unit, TextureKe
     return true;
 }
 
+TextureKey::Environment environmentOf(const osg::TexEnv& environment)
+{
+    switch (environment.getMode())
+    {
+    case osg::TexEnv::REPLACE:
+        return TextureKey::Replace;
+    case osg::TexEnv::DECAL:
+        return TextureKey::Decal;
+    case osg::TexEnv::BLEND:
+        return TextureKey::Blend;
+    case osg::TexEnv::ADD:
+        return TextureKey::Add;
+    default:
+        return TextureKey::Modulate;
+    }
+}
+
+TextureKey::Generation generationOf(osg::TexGen::Mode mode)
+{
+    switch (mode)
+    {
+    case osg::TexGen::OBJECT_LINEAR:
+        return TextureKey::ObjectLinear;
+    case osg::TexGen::SPHERE_MAP:
+        return TextureKey::SphereMap;
+    case osg::TexGen::NORMAL_MAP:
+        return TextureKey::NormalMap;
+    case osg::TexGen::REFLECTION_MAP:
+        return TextureKey::ReflectionMap;
+    default:
+        return TextureKey::EyeLinear;
+    }
+}
+
 } // namespace
 
 std::string fillTexture(const SurfaceState& state, unsigned int unit, unsigned int contextID,
@@ -275,47 +309,12 @@ std::string fillTexture(const SurfaceState& state, unsigned int unit, unsigned i
             return "TexEnvCombine with a texture unit above 3";
     }
     else if (auto* env = as<osg::TexEnv>(environment))
-    {
-        switch (env->getMode())
-        {
-        case osg::TexEnv::REPLACE:
-            key.environment = TextureKey::Replace;
-            break;
-        case osg::TexEnv::DECAL:
-            key.environment = TextureKey::Decal;
-            break;
-        case osg::TexEnv::BLEND:
-            key.environment = TextureKey::Blend;
-            break;
-        case osg::TexEnv::ADD:
-            key.environment = TextureKey::Add;
-            break;
-        default:
-            break;
-        }
-    }
+        key.environment = environmentOf(*env);
     key.generated = static_cast<std::uint8_t>((modes / SurfaceState::GenS) & 15);
     if (key.generated)
     {
         auto* generation = as<osg::TexGen>(state.get(unit, SurfaceState::TexGen));
-        switch (generation ? generation->getMode() : osg::TexGen::EYE_LINEAR)
-        {
-        case osg::TexGen::OBJECT_LINEAR:
-            key.generation = TextureKey::ObjectLinear;
-            break;
-        case osg::TexGen::EYE_LINEAR:
-            key.generation = TextureKey::EyeLinear;
-            break;
-        case osg::TexGen::SPHERE_MAP:
-            key.generation = TextureKey::SphereMap;
-            break;
-        case osg::TexGen::NORMAL_MAP:
-            key.generation = TextureKey::NormalMap;
-            break;
-        case osg::TexGen::REFLECTION_MAP:
-            key.generation = TextureKey::ReflectionMap;
-            break;
-        }
+        key.generation = generationOf(generation ? generation->getMode() : osg::TexGen::EYE_LINEAR);
     }
     auto* matrix = as<osg::TexMat>(state.get(unit, SurfaceState::TexMat));
     key.matrix =
