@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 namespace truth
 {
@@ -88,25 +89,6 @@ bool isEdgeNear(const Question& q)
     return false;
 }
 
-/// Whether the light lies so near to planes of casters that its float position may have decided.
-bool isWithinLightRounding(const Question& q)
-{
-    // On which side of a triangle that it touches the light lies is anybody's guess, and a wrong
-    // guess takes the triangle's shadow away where there is another's.
-    const Scene& scene = q.truth.getScene();
-    for (const Triangle& triangle : scene.triangles)
-        if (touches(triangle, scene.frames[triangle.frame], q.light))
-            return true;
-    Light light = q.light;
-    for (int side : {-1, 0, 1})
-    {
-        light.sideIfNear = side;
-        if (q.truth.sample(light, q.center.x(), q.center.y()).seen == q.seen)
-            return true;
-    }
-    return false;
-}
-
 bool isWithinQuantum(const Question& q)
 {
     const double x = q.center.x(), y = q.center.y();
@@ -114,20 +96,57 @@ bool isWithinQuantum(const Question& q)
            q.truth.isWithinSnapping(q.light, x, y, q.pixel);
 }
 
-/// The number that a wrong pixel adds to, away from the band and from grazing light. Each question
-/// takes long; a picture with more wrong pixels than are left is wrong.
-unsigned int& excuse(const Question& q, unsigned int& questions, MaskDifference& difference)
+/// Sorts the wrong pixels of a picture that are away from the band and from grazing light.
+class Excuses
 {
-    const bool isAsked = questions > 0;
-    questions -= isAsked;
-    if (isAsked && isEdgeNear(q))
-        return difference.wrongBand;
-    if (isAsked && isWithinQuantum(q))
-        return difference.withinQuantum;
-    if (isWithinLightRounding(q))
-        return difference.withinRounding;
-    return difference.leaks;
-}
+public:
+    /// The number that the pixel adds to.
+    unsigned int& find(const Question& q, MaskDifference& difference)
+    {
+        const bool isAsked = _questions > 0;
+        _questions -= isAsked;
+        if (isAsked && isEdgeNear(q))
+            return difference.wrongBand;
+        if (isAsked && isWithinQuantum(q))
+            return difference.withinQuantum;
+        if (isWithinLightRounding(q))
+            return difference.withinRounding;
+        return difference.leaks;
+    }
+
+private:
+    /// Whether the light lies so near to planes of casters that its float position may have
+    /// decided.
+    bool isWithinLightRounding(const Question& q)
+    {
+        if (touchesAny(q))
+            return true;
+        Light light = q.light;
+        for (int side : {-1, 0, 1})
+        {
+            light.sideIfNear = side;
+            if (q.truth.sample(light, q.center.x(), q.center.y()).seen == q.seen)
+                return true;
+        }
+        return false;
+    }
+
+    /// On which side of a triangle that it touches the light lies is anybody's guess, and a wrong
+    /// guess takes the triangle's shadow away where there is another's.
+    bool touchesAny(const Question& q)
+    {
+        const Scene& scene = q.truth.getScene();
+        if (!_touches)
+            _touches =
+                std::any_of(scene.triangles.begin(), scene.triangles.end(),
+                            [&](const Triangle& triangle)
+                            { return touches(triangle, scene.frames[triangle.frame], q.light); });
+        return *_touches;
+    }
+
+    unsigned int _questions = 500; ///< They take long; what has more wrong pixels is wrong.
+    std::optional<bool> _touches;
+};
 
 } // namespace
 
@@ -208,7 +227,7 @@ MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, con
     const int width = picture.width, height = picture.height;
     const osg::Vec2d pixel(2.0 / width, 2.0 / height);
     MaskDifference result;
-    unsigned int questions = 500;
+    Excuses excuses;
     for (int i = 0; i < width * height; ++i)
     {
         const int x = i % width, y = i / width;
@@ -233,7 +252,7 @@ MaskDifference compareMask(const osg::Image& mask, const ShadowTruth& truth, con
             zone == Zone::BAND ? result.wrongBand
             : error <= 1.0f / 255.0f
                 ? result.wrongGrazing
-                : excuse({truth, light, sample, center, pixel, seen}, questions, result);
+                : excuses.find({truth, light, sample, center, pixel, seen}, result);
         ++number;
         if (&number != &result.leaks)
             continue;
