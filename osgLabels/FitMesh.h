@@ -28,9 +28,9 @@ struct FitMesh
         double area;
     };
 
-    glm::dvec3 center{0.0}; ///< Of the box, in local coordinates.
-    double scale = 1.0;     ///< Half the box's diagonal, in local units.
-    double noise = 0.0;     ///< What a coordinate may be off by, being a float.
+    glm::dvec3 center{0.0};         ///< Of the box, in local coordinates.
+    double scale = 1.0;             ///< Half the box's diagonal, in local units.
+    double noise = 0.0;             ///< What a coordinate may be off by, being a float.
     std::vector<glm::dvec3> points; ///< Those of facets; may repeat.
     std::vector<Facet> facets;
     double area = 0.0;
@@ -67,8 +67,8 @@ glm::dmat3 nearestFrame(const glm::dmat3& axes);
 /// coordinates.
 glm::dmat3 frameAround(const glm::dvec3& z);
 
-/// Makes a shape in the mesh's scaled coordinates one of local coordinates. Columns of the frame are
-/// its axes.
+/// Makes a shape in the mesh's scaled coordinates one of local coordinates. Columns of the frame
+/// are its axes.
 FittedShape makeShape(const FitMesh& mesh, Shape shape, const glm::dmat3& frame,
                       const glm::dvec3& origin, const glm::dvec3& size);
 

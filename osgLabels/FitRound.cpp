@@ -283,7 +283,7 @@ std::vector<Profile> profilesOf(const FitMesh& mesh)
         // Towards the side of the coordinates' positive axes.
         const int most = std::abs(axis.z) >= std::max(std::abs(axis.x), std::abs(axis.y)) - 1e-9 ? 2
                          : std::abs(axis.y) >= std::abs(axis.x) - 1e-9                           ? 1
-                                                                                                 : 0;
+                                                                       : 0;
         axes.push_back(axis[most] < 0.0 ? -axis : axis);
     };
     // Principal axes come from all facets and are more exact, where they are defined at all.

@@ -24,11 +24,9 @@ LabelPlace placeOn(const ObjectRecord& record, const glm::vec3& position, const 
     const glm::quat& q = record.rotation;
     const glsl::osgLabels_Object object{
         {q.x, q.y, q.z, q.w}, record.origin, record.shape, record.size, record.identifier};
-    const glsl::osgLabels_View seen{view.eye,         view.up,     view.screenUp,
-                                    view.screenRight, view.height, view.gap,
-                                    view.base};
-    const glsl::osgLabels_Place at =
-        glsl::osgLabels_placeOn(object, position, dx, dy, seen, width);
+    const glsl::osgLabels_View seen{view.eye,    view.up,  view.screenUp, view.screenRight,
+                                    view.height, view.gap, view.base};
+    const glsl::osgLabels_Place at = glsl::osgLabels_placeOn(object, position, dx, dy, seen, width);
     return {at.inside, at.place, at.footprint};
 }
 

@@ -30,8 +30,8 @@ struct PlacementView
 /// A point of a surface on its label.
 struct LabelPlace
 {
-    bool inside = false;      ///< Whether it is on a text.
-    glm::vec2 place{0.0f};    ///< In em: x from 0 to the text's width, y from 0 to 1.
+    bool inside = false;       ///< Whether it is on a text.
+    glm::vec2 place{0.0f};     ///< In em: x from 0 to the text's width, y from 0 to 1.
     glm::mat2 footprint{0.0f}; ///< d(place)/dx and d(place)/dy.
 };
 

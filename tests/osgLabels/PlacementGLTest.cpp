@@ -120,13 +120,16 @@ osg::ref_ptr<osg::Program> programOf(const char* vertex, const char* fragment)
 {
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->addShader(new osg::Shader(osg::Shader::VERTEX, vertex));
-    program->addShader(new osg::Shader(osg::Shader::FRAGMENT, "#version 330 compatibility\n" +
-                                                                  placementSource() + Uniforms +
-                                                                  fragment));
+    program->addShader(
+        new osg::Shader(osg::Shader::FRAGMENT,
+                        "#version 330 compatibility\n" + placementSource() + Uniforms + fragment));
     return program;
 }
 
-osg::Vec3 vec(const glm::vec3& v) { return osg::Vec3(v.x, v.y, v.z); }
+osg::Vec3 vec(const glm::vec3& v)
+{
+    return osg::Vec3(v.x, v.y, v.z);
+}
 
 void setObject(osg::StateSet* state, const ObjectRecord& record, float width)
 {
@@ -186,9 +189,9 @@ osg::ref_ptr<osg::Image> contactSheet(support::HeadlessViewer& viewer,
                 "worldUp", osg::Vec3(osg::Matrixd::transform3x3(osg::Vec3d(0, 0, 1), inverse))));
             const double radius = root->getBound().radius();
             const osg::Vec3d center = root->getBound().center();
-            const auto camera = support::CameraSpec::perspective(
-                center + from[k] * radius * 2.6, center, osg::Vec3d(0, 0, 1), 46, 1, 0.1 * radius,
-                10 * radius);
+            const auto camera = support::CameraSpec::perspective(center + from[k] * radius * 2.6,
+                                                                 center, osg::Vec3d(0, 0, 1), 46, 1,
+                                                                 0.1 * radius, 10 * radius);
             const auto tile = viewer.render(root, camera, Side, Side);
             if (tile)
                 copyTile(*tile, *sheet, int(k), int(i));
@@ -201,9 +204,9 @@ osg::ref_ptr<osg::Image> contactSheet(support::HeadlessViewer& viewer,
 TEST_F(PlacementGLTest, everyShapeHasReadableText)
 {
     osgDB::makeDirectory("images");
-    const std::vector<osg::Vec3d> from = {
-        osg::Vec3d(0.3, -1, 0.35), osg::Vec3d(1, -0.2, 0.5), osg::Vec3d(-0.6, 0.7, 0.2),
-        osg::Vec3d(0.2, -0.3, 1),  osg::Vec3d(0.4, -0.6, -0.7)};
+    const std::vector<osg::Vec3d> from = {osg::Vec3d(0.3, -1, 0.35), osg::Vec3d(1, -0.2, 0.5),
+                                          osg::Vec3d(-0.6, 0.7, 0.2), osg::Vec3d(0.2, -0.3, 1),
+                                          osg::Vec3d(0.4, -0.6, -0.7)};
     const osg::Matrixd turned =
         osg::Matrixd::rotate(osg::PI_2, 0, 1, 0) * osg::Matrixd::rotate(0.4, 0, 0, 1);
     for (std::size_t first = 0; first < placedShapes().size(); first += 7)
@@ -211,7 +214,6 @@ TEST_F(PlacementGLTest, everyShapeHasReadableText)
         const std::string name = "images/placement" + std::to_string(first / 7);
         osgDB::writeImageFile(*contactSheet(_viewer, from, osg::Matrixd(), first, 7),
                               name + ".png");
-        osgDB::writeImageFile(*contactSheet(_viewer, from, turned, first, 7),
-                              name + "turned.png");
+        osgDB::writeImageFile(*contactSheet(_viewer, from, turned, first, 7), name + "turned.png");
     }
 }

@@ -28,8 +28,9 @@ std::vector<Named> allMeshes()
 {
     using namespace shapemesh;
     std::vector<Named> all;
-    const auto add = [&](const std::string& name, const ShapeMesh& mesh)
-    { all.push_back({name, mesh}); };
+    const auto add = [&](const std::string& name, const ShapeMesh& mesh) {
+        all.push_back({name, mesh});
+    };
     for (const glm::dvec3 half : {glm::dvec3(1, 1, 1), glm::dvec3(3, 2, 1), glm::dvec3(50, 1, 1),
                                   glm::dvec3(5, 5, 0.01), glm::dvec3(0.2, 1, 8)})
         for (const bool shared : {false, true})
@@ -71,9 +72,9 @@ std::vector<Named> allMeshes()
         for (const bool base : {false, true})
             add("pyramid", pyramid(half, base));
     const std::vector<glm::dvec2> l = {{0, 0}, {3, 0}, {3, 0.5}, {0.5, 0.5}, {0.5, 2}, {0, 2}};
-    const std::vector<glm::dvec2> i = {{-1, -2},     {1, -2},    {1, -1.8},  {0.1, -1.8},
-                                       {0.1, 1.8},   {1, 1.8},   {1, 2},     {-1, 2},
-                                       {-1, 1.8},    {-0.1, 1.8}, {-0.1, -1.8}, {-1, -1.8}};
+    const std::vector<glm::dvec2> i = {{-1, -2},   {1, -2},     {1, -1.8},    {0.1, -1.8},
+                                       {0.1, 1.8}, {1, 1.8},    {1, 2},       {-1, 2},
+                                       {-1, 1.8},  {-0.1, 1.8}, {-0.1, -1.8}, {-1, -1.8}};
     const std::vector<glm::dvec2> wedge = {{-1, -1}, {2, -1}, {-1, 1}};
     for (const double half : {0.5, 2.0, 40.0})
         for (const auto& profile : {l, i, wedge})
@@ -179,7 +180,10 @@ void expectAllFound(double scale, const glm::dvec3& offset, int turns, double to
 
 } // namespace
 
-TEST(ShapeFitTest, everyShapeIsFoundAtEveryTurn) { expectAllFound(1.0, glm::dvec3(0.0), 4, 1e-4); }
+TEST(ShapeFitTest, everyShapeIsFoundAtEveryTurn)
+{
+    expectAllFound(1.0, glm::dvec3(0.0), 4, 1e-4);
+}
 
 TEST(ShapeFitTest, smallShapesAreFound)
 {
