@@ -44,6 +44,14 @@ struct Profile
         return {std::hypot(p.x, p.y), p.z};
     }
 
+    /// Whether as much of the surface faces one way as any other around the axis.
+    bool isEven() const
+    {
+        const glm::dmat3 turned = glm::transpose(frame) * mesh.spread * frame;
+        const double sum = turned[0][0] + turned[1][1];
+        return std::hypot(turned[0][0] - turned[1][1], 2.0 * turned[0][1]) <= 0.05 * sum;
+    }
+
     double widestAt(double z, double tolerance) const
     {
         double widest = 0.0;
@@ -294,7 +302,8 @@ std::vector<Profile> profilesOf(const FitMesh& mesh)
             add(mesh.directions[i].normal);
     std::vector<Profile> profiles;
     for (const glm::dvec3& axis : axes)
-        profiles.emplace_back(mesh, axis);
+        if (Profile profile(mesh, axis); profile.isEven())
+            profiles.push_back(profile);
     return profiles;
 }
 
