@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double Tolerance = 3e-3; ///< Of the tube's radius.
-constexpr double LeastCover = 0.7;  ///< Of the exact tube's area.
+constexpr double LeastCover = 0.7; ///< Of the exact tube's area.
 constexpr std::size_t MostSamples = 400;
 
 struct Ring
@@ -227,8 +227,8 @@ std::optional<glm::dvec3> bendAxis(const FitMesh& mesh, const glm::dvec3& along)
     {
         const double lean = glm::dot(facet.normal, along);
         if (std::abs(lean) < 0.6)
-            side += facet.area / mesh.area * lean *
-                    glm::dot(facet.middle - mesh.centroid, along) * facet.normal;
+            side += facet.area / mesh.area * lean * glm::dot(facet.middle - mesh.centroid, along) *
+                    facet.normal;
     }
     const glm::dvec3 axis = glm::cross(along, side);
     const double length = glm::length(axis);
@@ -288,13 +288,13 @@ std::optional<FittedShape> fitElbow(const FitMesh& mesh)
     const std::vector<glm::dvec3> samples = sampled(mesh.points);
     for (int i = 0; i != 3; ++i)
         if (const auto axis = bendAxis(mesh, mesh.axes[i]))
-            if (auto elbow = fitAround(mesh, samples,
-                                       guessRing(mesh, samples, *axis, mesh.axes[i])))
+            if (auto elbow =
+                    fitAround(mesh, samples, guessRing(mesh, samples, *axis, mesh.axes[i])))
                 return elbow;
     // Bends of half a circle and more have normals all around.
     for (int i = 0; i != 3; ++i)
-        if (auto elbow = fitAround(mesh, samples,
-                                   guessRing(mesh, samples, mesh.axes[i], glm::dvec3(0.0))))
+        if (auto elbow =
+                fitAround(mesh, samples, guessRing(mesh, samples, mesh.axes[i], glm::dvec3(0.0))))
             return elbow;
     return std::nullopt;
 }

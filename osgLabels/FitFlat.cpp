@@ -30,8 +30,7 @@ glm::dmat3 leastRectangle(const FitMesh& mesh, const glm::dvec3& z)
         for (int k = 0; k != 3; ++k)
         {
             const FitMesh::Facet& facet = mesh.facets[i];
-            glm::dvec3 x =
-                mesh.points[facet.corners[(k + 1) % 3]] - mesh.points[facet.corners[k]];
+            glm::dvec3 x = mesh.points[facet.corners[(k + 1) % 3]] - mesh.points[facet.corners[k]];
             x -= glm::dot(x, z) * z;
             const double length = glm::length(x);
             if (length < 100.0 * mesh.noise + 1e-9)
@@ -69,7 +68,10 @@ bool liesAtEnd(const FitMesh& mesh, const FitMesh::Facet& facet, const glm::dvec
     return atLow || atHigh;
 }
 
-double toleranceOf(const FitMesh& mesh, double half) { return 4.0 * mesh.noise + 1e-2 * half; }
+double toleranceOf(const FitMesh& mesh, double half)
+{
+    return 4.0 * mesh.noise + 1e-2 * half;
+}
 
 /// Whether the facets are the sides and ends of something that is extruded along z.
 bool isExtruded(const FitMesh& mesh, const glm::dmat3& frame)
@@ -83,7 +85,8 @@ bool isExtruded(const FitMesh& mesh, const glm::dmat3& frame)
         const double cosine = std::abs(glm::dot(facet.normal, z));
         if (cosine < Perpendicular)
             sides += facet.area;
-        else if (cosine < 0.999 || !liesAtEnd(mesh, facet, z, extent.low.z, extent.high.z, tolerance))
+        else if (cosine < 0.999 ||
+                 !liesAtEnd(mesh, facet, z, extent.low.z, extent.high.z, tolerance))
             return false;
     }
     return sides > 1e-6 * mesh.area;
@@ -127,7 +130,8 @@ std::vector<glm::dvec3> fewPoints(const FitMesh& mesh)
     const double tolerance = 4.0 * mesh.noise + 1e-6;
     for (const glm::dvec3& point : mesh.points)
     {
-        const auto isSame = [&](const glm::dvec3& p) { return glm::distance(p, point) < tolerance; };
+        const auto isSame = [&](const glm::dvec3& p)
+        { return glm::distance(p, point) < tolerance; };
         if (std::any_of(distinct.begin(), distinct.end(), isSame))
             continue;
         if (distinct.size() == 5)
@@ -269,8 +273,7 @@ FittedShape projectBox(const FitMesh& mesh)
         best = mesh.axes;
     best = nearestFrame(best);
     const Extent extent(mesh.points, best);
-    FittedShape box =
-        makeShape(mesh, Shape::Box, best, best * extent.center(), extent.half());
+    FittedShape box = makeShape(mesh, Shape::Box, best, best * extent.center(), extent.half());
     box.projected = true;
     return box;
 }

@@ -64,7 +64,8 @@ FitMesh::FitMesh(const std::vector<glm::vec3>& vertices, const std::vector<std::
     if (!(scale > 0.0))
         return;
     const glm::dvec3 reach = glm::max(glm::abs(glm::dvec3(low)), glm::abs(glm::dvec3(high)));
-    noise = std::max({reach.x, reach.y, reach.z}) / scale * std::numeric_limits<float>::epsilon();
+    noises = reach / scale * double(std::numeric_limits<float>::epsilon());
+    noise = std::max({noises.x, noises.y, noises.z});
     addFacets(vertices, indices);
     if (area > 0.0)
         findAxes();
@@ -83,13 +84,15 @@ void FitMesh::addFacets(const std::vector<glm::vec3>& vertices,
         glm::dvec3 p[3];
         for (int k = 0; k != 3; ++k)
             p[k] = (glm::dvec3(vertices[indices[i + k]]) - center) / scale;
-        const glm::dvec3 ab = p[1] - p[0], ac = p[2] - p[0], bc = p[2] - p[1];
+        const glm::dvec3 ab = p[1] - p[0], ac = p[2] - p[0];
         const glm::dvec3 normal = glm::cross(ab, ac);
         const double length = glm::length(normal);
-        const double longest =
-            std::sqrt(std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)}));
-        // What is thinner than its coordinates are exact has no normal.
-        if (!(length > 4.0 * noise * longest) && !(noise < 1e-6 && length > 1e-12 * longest))
+        // By what the normal may lean, its corners being floats.
+        const glm::dvec3 reach = glm::abs(ab) + glm::abs(ac);
+        const glm::dvec3 off(reach.y * noises.z + reach.z * noises.y,
+                             reach.z * noises.x + reach.x * noises.z,
+                             reach.x * noises.y + reach.y * noises.x);
+        if (!(length > 2.0 * glm::length(off)) || !(length > 1e-16))
             continue;
         Facet facet;
         facet.normal = normal / length;
@@ -108,7 +111,7 @@ void FitMesh::addFacets(const std::vector<glm::vec3>& vertices,
         area += facet.area;
         centroid += facet.area * facet.middle;
         facets.push_back(facet);
-        addDirection(facet, length / longest);
+        addDirection(facet, glm::length(off) / length);
     }
     if (area > 0.0)
         centroid /= area;
@@ -116,10 +119,10 @@ void FitMesh::addFacets(const std::vector<glm::vec3>& vertices,
               [](const Direction& a, const Direction& b) { return a.area > b.area; });
 }
 
-void FitMesh::addDirection(const Facet& facet, double height)
+void FitMesh::addDirection(const Facet& facet, double lean)
 {
     // The angle within which normals are the same.
-    const double angle = 2e-3 + 4.0 * noise / height;
+    const double angle = 2e-3 + 2.0 * lean;
     if (angle > 0.05)
         return;
     for (Direction& direction : directions)
@@ -142,9 +145,9 @@ void FitMesh::addDirection(const Facet& facet, double height)
 
 void FitMesh::findAxes()
 {
-    glm::dmat3 m(0.0);
     for (const Facet& facet : facets)
-        m += facet.area * glm::outerProduct(facet.normal, facet.normal);
+        spread += facet.area * glm::outerProduct(facet.normal, facet.normal);
+    glm::dmat3 m = spread;
     for (int sweep = 0; sweep != 12; ++sweep)
     {
         const double off = m[0][1] * m[0][1] + m[0][2] * m[0][2] + m[1][2] * m[1][2];

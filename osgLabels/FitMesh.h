@@ -28,23 +28,25 @@ struct FitMesh
         double area;
     };
 
-    glm::dvec3 center{0.0}; ///< Of the box, in local coordinates.
-    double scale = 1.0;     ///< Half the box's diagonal, in local units.
-    double noise = 0.0;     ///< What a coordinate may be off by, being a float.
+    glm::dvec3 center{0.0};         ///< Of the box, in local coordinates.
+    double scale = 1.0;             ///< Half the box's diagonal, in local units.
+    double noise = 0.0;             ///< What a coordinate may be off by, being a float.
+    glm::dvec3 noises{0.0};         ///< The same for each axis.
     std::vector<glm::dvec3> points; ///< Those of facets; may repeat.
     std::vector<Facet> facets;
     double area = 0.0;
     glm::dvec3 centroid{0.0};          ///< Of the surface.
     std::vector<Direction> directions; ///< By area, largest first; at most MaxDirections.
     bool curved = false;               ///< There are more directions than that.
-    glm::dmat3 axes{1.0};              ///< Principal axes of the facets' normals.
+    glm::dmat3 spread{0.0}; ///< Of the facets' normals: sum of area times outer products.
+    glm::dmat3 axes{1.0};   ///< Principal axes of the facets' normals.
 
     static constexpr std::size_t MaxDirections = 12;
 
 private:
     void addFacets(const std::vector<glm::vec3>& vertices,
                    const std::vector<std::uint32_t>& indices);
-    void addDirection(const Facet& facet, double height);
+    void addDirection(const Facet& facet, double lean);
     void findAxes();
 };
 
@@ -67,8 +69,8 @@ glm::dmat3 nearestFrame(const glm::dmat3& axes);
 /// coordinates.
 glm::dmat3 frameAround(const glm::dvec3& z);
 
-/// Makes a shape in the mesh's scaled coordinates one of local coordinates. Columns of the frame are
-/// its axes.
+/// Makes a shape in the mesh's scaled coordinates one of local coordinates. Columns of the frame
+/// are its axes.
 FittedShape makeShape(const FitMesh& mesh, Shape shape, const glm::dmat3& frame,
                       const glm::dvec3& origin, const glm::dvec3& size);
 

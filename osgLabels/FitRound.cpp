@@ -44,6 +44,14 @@ struct Profile
         return {std::hypot(p.x, p.y), p.z};
     }
 
+    /// Whether as much of the surface faces one way as any other around the axis.
+    bool isEven() const
+    {
+        const glm::dmat3 turned = glm::transpose(frame) * mesh.spread * frame;
+        const double sum = turned[0][0] + turned[1][1];
+        return std::hypot(turned[0][0] - turned[1][1], 2.0 * turned[0][1]) <= 0.05 * sum;
+    }
+
     double widestAt(double z, double tolerance) const
     {
         double widest = 0.0;
@@ -283,7 +291,7 @@ std::vector<Profile> profilesOf(const FitMesh& mesh)
         // Towards the side of the coordinates' positive axes.
         const int most = std::abs(axis.z) >= std::max(std::abs(axis.x), std::abs(axis.y)) - 1e-9 ? 2
                          : std::abs(axis.y) >= std::abs(axis.x) - 1e-9                           ? 1
-                                                                                                 : 0;
+                                                                       : 0;
         axes.push_back(axis[most] < 0.0 ? -axis : axis);
     };
     // Principal axes come from all facets and are more exact, where they are defined at all.
@@ -294,7 +302,8 @@ std::vector<Profile> profilesOf(const FitMesh& mesh)
             add(mesh.directions[i].normal);
     std::vector<Profile> profiles;
     for (const glm::dvec3& axis : axes)
-        profiles.emplace_back(mesh, axis);
+        if (Profile profile(mesh, axis); profile.isEven())
+            profiles.push_back(profile);
     return profiles;
 }
 

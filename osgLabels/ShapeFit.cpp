@@ -40,9 +40,8 @@ double distanceToDish(const glm::dvec3& p, const glm::dvec3& size)
 {
     const double rho = std::hypot(p.x, p.y);
     const double out = std::hypot(rho / size.x, p.z / size.z);
-    const double shell = p.z < 0.0 || out == 0.0
-                             ? std::hypot(rho - size.x, p.z)
-                             : std::abs(1.0 - 1.0 / out) * glm::length(p);
+    const double shell = p.z < 0.0 || out == 0.0 ? std::hypot(rho - size.x, p.z)
+                                                 : std::abs(1.0 - 1.0 / out) * glm::length(p);
     return std::min(shell, distanceToSegment({rho, p.z}, {0.0, 0.0}, {size.x, 0.0}));
 }
 
@@ -53,8 +52,8 @@ double distanceToPyramid(const glm::dvec3& p, const glm::dvec3& size)
     for (int i = 0; i != 2; ++i)
     {
         const glm::dvec2 normal = glm::normalize(glm::dvec2(2.0 * size.z, size[i]));
-        nearest = std::min(nearest,
-                           std::abs(normal.x * std::abs(p[i]) + normal.y * (p.z - size.z)));
+        nearest =
+            std::min(nearest, std::abs(normal.x * std::abs(p[i]) + normal.y * (p.z - size.z)));
     }
     return nearest;
 }

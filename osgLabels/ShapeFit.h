@@ -17,7 +17,7 @@ namespace osgLabels
 struct FittedShape
 {
     Shape shape = Shape::None;
-    bool projected = false; ///< Not that shape: it stands in for the mesh.
+    bool projected = false;                  ///< Not that shape: it stands in for the mesh.
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0}; ///< From local coordinates to the shape's frame.
     glm::dvec3 origin{0.0};                  ///< Of the frame, in local coordinates.
     glm::dvec3 size{0.0};                    ///< See Shape.
@@ -33,8 +33,8 @@ struct FittedShape
 };
 
 /// Finds the shape of a mesh, three indices a triangle: Box, Cylinder, Sphere, Dish, Frustum,
-/// Pyramid, Torus, Quad or Extrusion, open or closed, from five segments around (a cylinder, cone or
-/// torus of four is a Box, Pyramid or projected). All others get a projected Box along their
+/// Pyramid, Torus, Quad or Extrusion, open or closed, from five segments around (a cylinder, cone
+/// or torus of four is a Box, Pyramid or projected). All others get a projected Box along their
 /// dominating normals, flat ones a projected Quad. Oblique cones, truncated pyramids and parts of
 /// spheres that are not halves are projected.
 ///

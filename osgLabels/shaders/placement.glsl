@@ -26,7 +26,9 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
     // A straight text bends towards the ends of the generator, and must keep off them.
     float bent = 0.125f * width * width * steep / max(radius, osgLabels_Tiny);
     around = min(around, 0.95f * band.room / (0.5f + sqrt(0.25f + 1.9f * bent * band.room)));
-    bool runsAround = band.around || around > 1.5f * along;
+    // On what stands upright, text around is level, which is worth a third of its size.
+    float least = abs(view.up.z) > 0.7071f * length(view.up) ? 0.75f : 1.5f;
+    bool runsAround = band.around || around > least * along;
     line.em = runsAround ? around : along;
 
     float rho = max(length(vec2(p.x, p.y)), osgLabels_Tiny);
@@ -56,6 +58,7 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
         line.along = gradW;
         line.across = gradSagged;
         line.direction = vec3(-outward.y, outward.x, 0.0f);
+        line.beyond = 0.0f;
     }
     else
     {
@@ -66,6 +69,7 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
         line.along = gradSagged;
         line.across = gradW;
         line.direction = slope * outward + vec3(0.0f, 0.0f, band.tangent.y);
+        line.beyond = abs(base + sagged) - 0.5f * band.room;
     }
     return line;
 }
@@ -167,21 +171,25 @@ osgLabels_Line osgLabels_torus(osgLabels_View view, vec3 p, vec3 size, float wid
     float psi = atan(tube.y, tube.x);
     float thick = max(dot(tube, tube), osgLabels_Tiny);
     vec3 gradPsi = (tube.x * vec3(0.0f, 0.0f, 1.0f) - tube.y * outward) / thick;
-    float off = osgLabels_fromMiddle(0.0f, psi, 1.0f, osgLabels_HalfPi);
-    float psi0 = psi - off;
+    // Of the line, not of the point: rounding must not differ within a text.
+    float psi0 = osgLabels_HalfPi * floor(psi / osgLabels_HalfPi + 0.5f);
+    float off = psi - psi0;
 
     float ring = max(size.x + size.y * cos(psi0), 0.1f * size.y);
     float room = ring * size.z;
     line.em = osgLabels_em(view, room, osgLabels_HalfPi * size.y, width);
     float count = osgLabels_count(view, room, line.em, width);
     float turned = osgLabels_fromMiddle(0.0f, theta, count, size.z / count);
-    line.at = vec2(ring * turned, size.y * off);
+    // Where the ring is narrower than on the line, letters are so too: across as well as along.
+    float narrow = size.y * sin(psi0) / ring;
+    line.at = vec2(ring * turned, size.y * off * (1.0f + 0.5f * narrow * off));
     line.along = ring * gradTheta;
-    line.across = size.y * gradPsi;
+    line.across = size.y * (1.0f + narrow * off) * gradPsi;
     float theta0 = bisector + theta - turned;
     vec2 turn = vec2(cos(theta0), sin(theta0));
     line.middle = vec3(ring * turn.x, ring * turn.y, size.y * sin(psi0));
     line.direction = vec3(-turn.y, turn.x, 0.0f);
+    line.beyond = 0.0f;
     return line;
 }
 
@@ -197,6 +205,7 @@ osgLabels_Line osgLabels_textured(osgLabels_View view, vec3 p, vec3 size, float 
     line.across = vec3(0.0f, 1.0f, 0.0f);
     line.middle = vec3(0.0f);
     line.direction = vec3(0.0f);
+    line.beyond = 0.0f;
     return line;
 }
 
@@ -283,7 +292,7 @@ osgLabels_Place osgLabels_placeOn(osgLabels_Object object, vec3 position, vec3 d
     vec2 side = shape == 10u ? vec2(mirrored, 1.0f) : vec2(turned, turned * mirrored);
     result.footprint = mat2(side * footprint[0], side * footprint[1]);
     result.place = side * line.at * perEm + vec2(0.5f * width, 0.5f);
-    result.inside = line.em > 0.0f && result.place.x >= 0.0f && result.place.x <= width &&
-                    result.place.y >= 0.0f && result.place.y <= 1.0f;
+    result.inside = line.em > 0.0f && line.beyond <= 0.0f && result.place.x >= 0.0f &&
+                    result.place.x <= width && result.place.y >= 0.0f && result.place.y <= 1.0f;
     return result;
 }

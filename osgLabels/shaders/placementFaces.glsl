@@ -46,6 +46,7 @@ struct osgLabels_Line
     vec3 middle;    // A point of the line.
     vec3 direction; // Of the line there.
     float em;
+    float beyond;   // Positive where the line's room has ended.
 };
 
 // The share of its room that a text may fill along the line.
@@ -59,10 +60,11 @@ float osgLabels_em(osgLabels_View view, float room, float across, float width)
     return min(view.height * across, osgLabels_Fill * room / width);
 }
 
-// How often a text of that many em is repeated in a room.
+// How often a text of that many em is repeated in a room. Where it fits exactly, as with sides of
+// simple ratios, rounding does not decide.
 float osgLabels_count(osgLabels_View view, float room, float em, float width)
 {
-    return max(1.0f, floor(room / max((width + view.gap) * em, osgLabels_Tiny)));
+    return max(1.0f, floor(room / max((width + view.gap) * em, osgLabels_Tiny) + 1e-3f));
 }
 
 // The distance between the middles of texts, a little rounded down to 12 bits: then the first few
@@ -116,6 +118,7 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
     line.at = vec2(osgLabels_fromMiddle(dot(view.base, line.along), dot(p, line.along), count,
                                         osgLabels_period(room, count)),
                    dot(p + view.base - middle, line.across));
+    line.beyond = 0.0f;
     return line;
 }
 
@@ -139,6 +142,7 @@ osgLabels_Line osgLabels_disc(osgLabels_View view, vec3 p, float z, float radius
                   2.0f * osgLabels_Fill * radius * inversesqrt(1.0f + width * width));
     vec3 q = p + view.base;
     line.at = vec2(dot(q, line.along), dot(q, line.across));
+    line.beyond = 0.0f;
     return line;
 }
 
@@ -190,7 +194,8 @@ osgLabels_Line osgLabels_pyramid(osgLabels_View view, vec3 p, float flatness, ve
     float room = 2.0f * side * (1.0f - (bottom + line.em) / slant);
     float count = osgLabels_count(view, room, line.em, width);
     vec3 q = p - line.middle;
-    line.at = vec2(osgLabels_fromMiddle(0.0f, dot(q, line.along), count, room / count),
-                   dot(q, line.across));
+    float x = dot(q, line.along);
+    line.at = vec2(osgLabels_fromMiddle(0.0f, x, count, room / count), dot(q, line.across));
+    line.beyond = abs(x) - 0.5f * room;
     return line;
 }

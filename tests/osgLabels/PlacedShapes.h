@@ -21,4 +21,3 @@ std::vector<PlacedShape> placedShapes();
 
 /// Flat-shaded triangles, one color.
 osg::ref_ptr<osg::Geometry> geometryOf(const ShapeMesh& mesh);
-

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
@@ -28,8 +29,9 @@ std::vector<Named> allMeshes()
 {
     using namespace shapemesh;
     std::vector<Named> all;
-    const auto add = [&](const std::string& name, const ShapeMesh& mesh)
-    { all.push_back({name, mesh}); };
+    const auto add = [&](const std::string& name, const ShapeMesh& mesh) {
+        all.push_back({name, mesh});
+    };
     for (const glm::dvec3 half : {glm::dvec3(1, 1, 1), glm::dvec3(3, 2, 1), glm::dvec3(50, 1, 1),
                                   glm::dvec3(5, 5, 0.01), glm::dvec3(0.2, 1, 8)})
         for (const bool shared : {false, true})
@@ -71,9 +73,9 @@ std::vector<Named> allMeshes()
         for (const bool base : {false, true})
             add("pyramid", pyramid(half, base));
     const std::vector<glm::dvec2> l = {{0, 0}, {3, 0}, {3, 0.5}, {0.5, 0.5}, {0.5, 2}, {0, 2}};
-    const std::vector<glm::dvec2> i = {{-1, -2},     {1, -2},    {1, -1.8},  {0.1, -1.8},
-                                       {0.1, 1.8},   {1, 1.8},   {1, 2},     {-1, 2},
-                                       {-1, 1.8},    {-0.1, 1.8}, {-0.1, -1.8}, {-1, -1.8}};
+    const std::vector<glm::dvec2> i = {{-1, -2},   {1, -2},     {1, -1.8},    {0.1, -1.8},
+                                       {0.1, 1.8}, {1, 1.8},    {1, 2},       {-1, 2},
+                                       {-1, 1.8},  {-0.1, 1.8}, {-0.1, -1.8}, {-1, -1.8}};
     const std::vector<glm::dvec2> wedge = {{-1, -1}, {2, -1}, {-1, 1}};
     for (const double half : {0.5, 2.0, 40.0})
         for (const auto& profile : {l, i, wedge})
@@ -179,9 +181,167 @@ void expectAllFound(double scale, const glm::dvec3& offset, int turns, double to
 
 } // namespace
 
-TEST(ShapeFitTest, everyShapeIsFoundAtEveryTurn) { expectAllFound(1.0, glm::dvec3(0.0), 4, 1e-4); }
+TEST(ShapeFitTest, everyShapeIsFoundAtEveryTurn)
+{
+    expectAllFound(1.0, glm::dvec3(0.0), 4, 1e-4);
+}
 
 TEST(ShapeFitTest, smallShapesAreFound)
 {
     expectAllFound(1e-6, glm::dvec3(0.0), 2, 1e-4);
+}
+
+TEST(ShapeFitTest, shapesFarFromTheOriginAreFound)
+{
+    // Floats are 1 apart at 1e7: shapes of 1e4 have a ten thousandth of noise.
+    std::mt19937 random(5);
+    using namespace shapemesh;
+    const std::vector<Named> meshes = {{"box", box({3e4, 2e4, 1e4}, false)},
+                                       {"cylinder", frustum(1e4, 1e4, 3e4, 16, 1, FanCapped)},
+                                       {"cone", frustum(1e4, 0, 1e4, 24, 1, FanCapped)},
+                                       {"sphere", sphere(2e4, 24, 12)},
+                                       {"dish", dish(2e4, 1e4, 24, 6, Open)},
+                                       {"torus", torus(3e4, 1e4, 1.5707963, 8, 12, Open)},
+                                       {"quad", quad(1e4, 2e4, 1)},
+                                       {"pyramid", pyramid({1e4, 1e4, 1e4}, true)}};
+    for (const Named& named : meshes)
+        for (int turn = 0; turn != 4; ++turn)
+        {
+            ShapeMesh mesh = named.mesh;
+            mesh.move(randomTurn(random), {1e7, -1e7, 1e7});
+            const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+            EXPECT_EQ(int(fit.shape), int(mesh.truth.shape)) << named.name;
+            EXPECT_FALSE(fit.projected) << named.name;
+            EXPECT_TRUE(hasSizes(fit, mesh.truth, 1e-3)) << named.name;
+            EXPECT_LT(glm::distance(fit.origin, mesh.truth.origin), 10.0) << named.name;
+        }
+}
+
+TEST(ShapeFitTest, theFrameIsThatOfTheShape)
+{
+    std::mt19937 random(9);
+    for (const Named& named : allMeshes())
+    {
+        ShapeMesh mesh = named.mesh;
+        mesh.move(randomTurn(random), {0.5, -3.0, 2.0});
+        const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+        const double reach = glm::length(mesh.truth.size);
+        EXPECT_NEAR(glm::length(fit.rotation), 1.0, 1e-9);
+        // Profiles may have a box along any of their sides.
+        if (mesh.truth.shape == Shape::Extrusion)
+            continue;
+        EXPECT_LT(glm::distance(fit.origin, mesh.truth.origin), 1e-3 * reach) << named.name;
+        for (const glm::dvec3& point : mesh.points)
+            EXPECT_LT(distanceTo(fit, point), 1e-4 * reach) << named.name;
+    }
+}
+
+TEST(ShapeFitTest, whatIsNoShapeIsProjected)
+{
+    using namespace shapemesh;
+    std::mt19937 random(2);
+    std::normal_distribution<double> gauss;
+    std::vector<Named> meshes;
+    // A third of a sphere, an oblique cone, a bent plate, a heap of triangles.
+    ShapeMesh part = sphere(1, 24, 12);
+    part.indices.resize(part.indices.size() / 3);
+    meshes.push_back({"part of a sphere", part});
+    ShapeMesh oblique = frustum(1, 0.5, 1, 24, 1, FanCapped);
+    for (glm::dvec3& point : oblique.points)
+        point.x += 0.4 * point.z;
+    meshes.push_back({"oblique cone", oblique});
+    ShapeMesh egg = sphere(1, 24, 12);
+    for (glm::dvec3& point : egg.points)
+        point.z *= point.z > 0.0 ? 1.6 : 1.0;
+    meshes.push_back({"egg", egg});
+    ShapeMesh sheared = box({1, 1, 1}, false);
+    for (glm::dvec3& point : sheared.points)
+        point.x += 0.5 * point.z + 0.2 * point.y;
+    meshes.push_back({"sheared box", sheared});
+    ShapeMesh heap;
+    for (std::uint32_t i = 0; i != 300; ++i)
+    {
+        heap.points.emplace_back(gauss(random), gauss(random), gauss(random));
+        heap.indices.push_back(i);
+    }
+    meshes.push_back({"heap", heap});
+    for (const Named& named : meshes)
+    {
+        ShapeMesh mesh = named.mesh;
+        mesh.move(randomTurn(random), {1, 2, 3});
+        const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+        EXPECT_EQ(int(fit.shape), int(Shape::Box)) << named.name;
+        EXPECT_TRUE(fit.projected) << named.name;
+        // The box holds the mesh.
+        for (const std::uint32_t index : mesh.indices)
+        {
+            const glm::dvec3 point = mesh.points[index];
+            const glm::dvec3 p = glm::abs(fit.rotation * (point - fit.origin)) - fit.size;
+            EXPECT_LT(std::max({p.x, p.y, p.z}), 1e-5) << named.name;
+        }
+    }
+}
+
+TEST(ShapeFitTest, halfAPipeIsAnExtrusion)
+{
+    ShapeMesh half = shapemesh::frustum(1, 1, 2, 24, 1, shapemesh::Open);
+    half.indices.resize(half.indices.size() / 2);
+    const FittedShape fit = fitShape(half.vertices(), half.indices);
+    EXPECT_EQ(int(fit.shape), int(Shape::Extrusion));
+    EXPECT_NEAR(fit.size.z, 2.0, 1e-5);
+}
+
+TEST(ShapeFitTest, aBoxWithABevelFollowsItsFaces)
+{
+    // Its faces dominate; the bevels make it no box.
+    ShapeMesh mesh = shapemesh::extrusion({{-2, -1}, {1.9, -1}, {2, -0.9}, {2, 1}, {-2, 1}}, 3);
+    mesh.indices.insert(mesh.indices.end(), {0, 1, 4});
+    std::mt19937 random(4);
+    mesh.move(randomTurn(random), {0, 0, 0});
+    const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+    glm::dvec3 sides = fit.size;
+    std::sort(&sides.x, &sides.x + 3);
+    EXPECT_LT(glm::distance(sides, glm::dvec3(1, 2, 3)), 1e-5);
+}
+
+TEST(ShapeFitTest, degenerateMeshesAreNoneOrFinite)
+{
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const float infinite = std::numeric_limits<float>::infinity();
+    const float huge = std::numeric_limits<float>::max();
+    const std::vector<std::vector<glm::vec3>> vertices = {
+        {},
+        {{1, 2, 3}},
+        {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}},
+        {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}},
+        {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        {{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+        {{infinite, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
+        {{0, 0, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}, {1e-30f, 1e-30f, 0}},
+        {{0, 0, 0}, {huge, 0, 0}, {0, huge, 0}, {huge, huge, 0}},
+        {{-huge, -huge, 0}, {huge, 0, 0}, {0, huge, 0}, {huge, huge, huge}},
+        {{0, 0, 0}, {1e4f, 0, 0}, {1e4f, 1e-4f, 0}, {0, 1e-4f, 0}}};
+    const std::vector<std::vector<std::uint32_t>> indices = {{},
+                                                             {0},
+                                                             {0, 1},
+                                                             {0, 1, 2, 0, 2, 3},
+                                                             {0, 1, 2, 1, 2, 3, 0, 2, 3, 0, 1, 3},
+                                                             {0, 0, 0},
+                                                             {7, 8, 4000000000u},
+                                                             {0, 1, 2, 9, 1, 2}};
+    for (const auto& points : vertices)
+        for (const auto& corners : indices)
+        {
+            const FittedShape fit = fitShape(points, corners);
+            const glm::dvec3 all = fit.origin + fit.size;
+            EXPECT_TRUE(std::isfinite(all.x + all.y + all.z));
+            EXPECT_TRUE(std::isfinite(fit.residual) && std::isfinite(fit.coarseness));
+            EXPECT_NEAR(glm::length(fit.rotation), 1.0, 1e-6);
+            if (fit.shape != Shape::None)
+            {
+                EXPECT_GT(std::max({fit.size.x, fit.size.y, fit.size.z}), 0.0);
+            }
+        }
+    EXPECT_EQ(int(fitShape(vertices[3], indices[4]).shape), int(Shape::None));
+    EXPECT_EQ(int(fitShape(vertices[10], indices[3]).shape), int(Shape::Quad));
 }

@@ -69,8 +69,8 @@ void addDisc(ShapeMesh& mesh, int corners, Ends ends, const glm::dvec3& middle, 
     const auto count = std::uint32_t(corners);
     for (std::uint32_t i = 0; i != count; ++i)
         if (ends == FanCapped)
-            mesh.indices.insert(mesh.indices.end(), {first + i, first + (i + 1) % count,
-                                                     first + count});
+            mesh.indices.insert(mesh.indices.end(),
+                                {first + i, first + (i + 1) % count, first + count});
         else if (i + 2 < count)
             mesh.indices.insert(mesh.indices.end(), {first, first + i + 1, first + i + 2});
 }
@@ -90,7 +90,8 @@ ShapeMesh box(const glm::dvec3& half, bool sharedVertices)
     if (sharedVertices)
     {
         for (int i = 0; i != 8; ++i)
-            mesh.points.push_back(half * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+            mesh.points.push_back(half *
+                                  glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
         addQuad(mesh, 0, 2, 3, 1);
         addQuad(mesh, 4, 5, 7, 6);
         addQuad(mesh, 0, 1, 5, 4);
@@ -159,7 +160,8 @@ ShapeMesh dish(double radius, double height, int around, int along, Ends base)
                 const double latitude = 0.5 * v * glm::pi<double>();
                 return polar(radius * std::cos(latitude), TwoPi * u, height * std::sin(latitude));
             });
-    addDisc(mesh, around, base, {0, 0, 0}, [&](double u) { return polar(radius, -TwoPi * u, 0.0); });
+    addDisc(mesh, around, base, {0, 0, 0},
+            [&](double u) { return polar(radius, -TwoPi * u, 0.0); });
     return mesh;
 }
 
@@ -181,9 +183,7 @@ ShapeMesh torus(double ring, double tube, double angle, int along, int around, E
 {
     ShapeMesh mesh = made(Shape::Torus, {ring, tube, angle});
     const auto at = [&](double u, double v)
-    {
-        return polar(ring + tube * std::cos(TwoPi * v), angle * u, tube * std::sin(TwoPi * v));
-    };
+    { return polar(ring + tube * std::cos(TwoPi * v), angle * u, tube * std::sin(TwoPi * v)); };
     addGrid(mesh, along, around, at);
     if (angle < 6.28)
     {
