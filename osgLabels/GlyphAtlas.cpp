@@ -18,21 +18,17 @@ osg::Vec4 toLevel(const ImageRectangle& rectangle, float margin)
 
 GlyphAtlas::GlyphAtlas(std::shared_ptr<const GlyphSet> glyphs, float outlineWidth)
     : _glyphs(std::move(glyphs)), _images(_glyphs, outlineWidth),
-      _boxes(new GlyphTexture(GL_RGBA, _images.getBoxesWidth(), _images.getBoxesHeight())),
-      _distances(
-          new GlyphTexture(GL_RED, _images.getDistance().width, _images.getDistance().height)),
-      _levels(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_levels", GlyphImages::Levels)),
-      _distanceLevel(new osg::Uniform("osgLabels_distanceLevel", osg::Vec4())),
-      _imageWidths(new osg::Uniform("osgLabels_imageWidths",
-                                    osg::Vec2(static_cast<float>(_images.getBoxesWidth()),
-                                              static_cast<float>(_images.getDistance().width)))),
-      _letters(new osg::Uniform("osgLabels_letters", osg::Vec4())),
+      _texture(new GlyphTexture(GL_RGBA, _images.getWidth(), _images.getHeight())),
+      _levels(
+          new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_levels", GlyphImages::Levels + 1)),
+      _letters(new osg::Uniform("osgLabels_letters", osg::Vec3())),
       _legible(new osg::Uniform("osgLabels_legible", osg::Vec2(2.0f, 1.0f)))
 {
     for (unsigned int level = 0; level < GlyphImages::Levels; ++level)
         _levels->setElement(
             level, toLevel(_images.getLevels()[level], _images.getMargin(static_cast<int>(level))));
-    _distanceLevel->set(toLevel(_images.getDistance(), _images.getDistanceMargin()));
+    _levels->setElement(GlyphImages::Levels,
+                        toLevel(_images.getDistance(), _images.getDistanceMargin()));
     updateLetters();
 }
 
@@ -43,11 +39,8 @@ bool GlyphAtlas::update()
         return false;
     for (; _count < end; ++_count)
     {
-        for (int image = 0; image < _images.getImagesPerGlyph(); ++image)
-        {
-            _boxes->add(_images.makeBoxes(_count, image));
-            _distances->add(_images.makeDistance(_count, image));
-        }
+        for (int which = 0; which < _images.getImagesPerGlyph(); ++which)
+            _texture->add(_images.make(_count, which));
         _meanSum += _images.getMeanCoverage(_count, 0);
     }
     updateLetters();
@@ -56,19 +49,32 @@ bool GlyphAtlas::update()
 
 void GlyphAtlas::updateLetters()
 {
-    const bool isCells = _glyphs->getSpacing() == Spacing::Cells;
-    _letters->set(osg::Vec4(isCells ? _glyphs->getCellAdvance() : 0.0f, _images.getOverhang(),
-                            static_cast<float>(_images.getImagesPerGlyph()),
+    _letters->set(osg::Vec3(_glyphs->getCellAdvance(), _images.getOverhang(),
                             _count ? static_cast<float>(_meanSum / _count) : 0.0f));
 }
 
-void GlyphAtlas::apply(osg::StateSet& stateSet, unsigned int firstUnit) const
+std::string GlyphAtlas::getDefines() const
 {
-    stateSet.setTextureAttribute(firstUnit, _boxes);
-    stateSet.setTextureAttribute(firstUnit + 1, _distances);
-    stateSet.addUniform(new osg::Uniform("osgLabels_boxes", static_cast<int>(firstUnit)));
-    stateSet.addUniform(new osg::Uniform("osgLabels_distances", static_cast<int>(firstUnit) + 1));
-    for (const auto& uniform : {_levels, _distanceLevel, _imageWidths, _letters, _legible})
+    std::string defines;
+    if (_glyphs->getSpacing() == Spacing::Proportional)
+        defines += "#define OSGLABELS_PROPORTIONAL\n";
+    if (_images.getImagesPerGlyph() > 1)
+        defines += "#define OSGLABELS_OUTLINE\n";
+    return defines;
+}
+
+void GlyphAtlas::apply(osg::StateSet& stateSet, unsigned int unit) const
+{
+    stateSet.setTextureAttribute(unit, _texture);
+    stateSet.addUniform(new osg::Uniform("osgLabels_glyphs", static_cast<int>(unit)));
+    stateSet.addUniform(new osg::Uniform(
+        "osgLabels_layer", osg::Vec2(static_cast<float>(_images.getWidth()),
+                                     static_cast<float>(_images.getImagesPerGlyph()))));
+    const glm::vec2 step(_images.getQuarterStep());
+    const glm::vec2 end = step + glm::vec2(_images.getDistance().x, _images.getDistance().y) + 0.5f;
+    stateSet.addUniform(
+        new osg::Uniform("osgLabels_quarters", osg::Vec4(step.x, step.y, end.x, end.y)));
+    for (const auto& uniform : {_levels, _letters, _legible})
         stateSet.addUniform(uniform);
 }
 
@@ -102,7 +108,7 @@ bool GlyphAtlas::getToneBelowLegible() const
 
 std::size_t GlyphAtlas::getBytes() const
 {
-    return _boxes->getBytes() + _distances->getBytes();
+    return _texture->getBytes();
 }
 
 } // namespace osgLabels

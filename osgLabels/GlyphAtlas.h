@@ -13,7 +13,7 @@
 namespace osgLabels
 {
 
-/// The textures and uniforms that coverage.glsl reads: the images of those glyphs that a scene's
+/// The texture and uniforms that coverage.glsl reads: the images of those glyphs that a scene's
 /// texts use, and of no others.
 class OSGLABELS_EXPORT GlyphAtlas : public osg::Referenced
 {
@@ -22,11 +22,14 @@ public:
     explicit GlyphAtlas(std::shared_ptr<const GlyphSet> glyphs, float outlineWidth = 0.0f);
 
     /// Makes the images of glyphs that are new in the set; true where there were some. From one
-    /// thread at a time; textures may be drawn with meanwhile. A glyph takes some milliseconds.
+    /// thread at a time; the texture may be drawn with meanwhile. A glyph takes some milliseconds.
     bool update();
 
-    /// Sets textures on units `firstUnit` and the next, and all uniforms of coverage.glsl.
-    void apply(osg::StateSet& stateSet, unsigned int firstUnit) const;
+    /// Sets the texture on the unit, and all uniforms of coverage.glsl.
+    void apply(osg::StateSet& stateSet, unsigned int unit) const;
+
+    /// #define lines that stand before coverage.glsl; the same for the atlas's life.
+    std::string getDefines() const;
 
     /// Pixels an em below which letters fade out, gone at half of it; 0 and more, 2 at first.
     void setLegibleSize(float pixelsPerEm);
@@ -52,8 +55,8 @@ private:
 
     const std::shared_ptr<const GlyphSet> _glyphs;
     const GlyphImages _images;
-    const osg::ref_ptr<GlyphTexture> _boxes, _distances;
-    const osg::ref_ptr<osg::Uniform> _levels, _distanceLevel, _imageWidths, _letters, _legible;
+    const osg::ref_ptr<GlyphTexture> _texture;
+    const osg::ref_ptr<osg::Uniform> _levels, _letters, _legible;
     std::uint32_t _count = 0;
     double _meanSum = 0.0;
 };

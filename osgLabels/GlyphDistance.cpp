@@ -54,13 +54,15 @@ double getSignedArea(const GlyphOutline& outline)
 
 } // namespace
 
-std::vector<std::uint8_t> GlyphImages::makeDistance(std::uint32_t code, int image) const
+void GlyphImages::drawDistances(const GlyphOutline& outline,
+                                std::vector<std::uint8_t>& pixels) const
 {
-    const GlyphOutline outline = getOutline(code, image);
     const InkSpans ink(outline, 4096);
-    const ImageRectangle& rectangle = _distance;
-    std::vector<float> distances(getDistanceBytes(), DistanceSpread);
-    const auto toTexel = [&](float em, float offset) { return em * rectangle.scale + offset; };
+    const glm::ivec2 size = glm::ivec2(_distance.width, _distance.height) + _quarterStep;
+    const glm::vec2 border = _distance.offset - glm::vec2(_distance.x, _distance.y);
+    std::vector<float> distances(static_cast<std::size_t>(size.x * size.y), DistanceSpread);
+    const auto getPlace = [&](int x, int y)
+    { return (glm::vec2(x, y) + 0.5f - border) / _distance.scale; };
     forSides(outline,
              [&](const glm::vec2& a, const glm::vec2& b)
              {
@@ -68,34 +70,29 @@ std::vector<std::uint8_t> GlyphImages::makeDistance(std::uint32_t code, int imag
                      return;
                  const glm::vec2 low = glm::min(a, b) - DistanceSpread,
                                  high = glm::max(a, b) + DistanceSpread;
-                 const int left = std::max(0, static_cast<int>(toTexel(low.x, rectangle.offset.x))),
-                           right = std::min(rectangle.width - 1,
-                                            static_cast<int>(toTexel(high.x, rectangle.offset.x))),
-                           bottom =
-                               std::max(0, static_cast<int>(toTexel(low.y, rectangle.offset.y))),
-                           top = std::min(rectangle.height - 1,
-                                          static_cast<int>(toTexel(high.y, rectangle.offset.y)));
-                 for (int y = bottom; y <= top; ++y)
-                     for (int x = left; x <= right; ++x)
+                 const glm::ivec2 from(glm::max(low * _distance.scale + border, 0.0f)),
+                     to = glm::min(glm::ivec2(high * _distance.scale + border), size - 1);
+                 for (int y = from.y; y <= to.y; ++y)
+                     for (int x = from.x; x <= to.x; ++x)
                      {
-                         const glm::vec2 place =
-                             (glm::vec2(x, y) + 0.5f - rectangle.offset) / rectangle.scale;
-                         float& distance =
-                             distances[static_cast<std::size_t>(y * rectangle.width + x)];
-                         distance = std::min(distance, getDistanceToSide(place, a, b));
+                         float& distance = distances[static_cast<std::size_t>(y * size.x + x)];
+                         distance = std::min(distance, getDistanceToSide(getPlace(x, y), a, b));
                      }
              });
-    std::vector<std::uint8_t> pixels(distances.size());
-    for (int y = 0; y < rectangle.height; ++y)
-        for (int x = 0; x < rectangle.width; ++x)
-        {
-            const auto i = static_cast<std::size_t>(y * rectangle.width + x);
-            const glm::vec2 place = (glm::vec2(x, y) + 0.5f - rectangle.offset) / rectangle.scale;
-            const float share = distances[i] / DistanceSpread;
-            const float inside = ink.contains(place.x, place.y) ? share : -share;
-            pixels[i] = static_cast<std::uint8_t>(std::lrint(127.5f + 127.5f * inside));
-        }
-    return pixels;
+    for (int channel = 0; channel < 4; ++channel)
+        for (int y = 0; y < _distance.height; ++y)
+            for (int x = 0; x < _distance.width; ++x)
+            {
+                const int wholeX = x + channel % 2 * _quarterStep.x,
+                          wholeY = y + channel / 2 * _quarterStep.y;
+                const glm::vec2 place = getPlace(wholeX, wholeY);
+                const float share =
+                    distances[static_cast<std::size_t>(wholeY * size.x + wholeX)] / DistanceSpread;
+                const float inside = ink.contains(place.x, place.y) ? share : -share;
+                const int i = (_distance.y + y) * _width + _distance.x + x;
+                pixels[static_cast<std::size_t>(4 * i + channel)] =
+                    static_cast<std::uint8_t>(std::lrint(127.5f + 127.5f * inside));
+            }
 }
 
 GlyphOutline grow(const GlyphOutline& outline, float width)

@@ -5,7 +5,6 @@
 #include <osgLabels/InkSpans.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace osgLabels
@@ -15,10 +14,9 @@ namespace
 {
 
 constexpr int TexelsPerBox = 4;
-/// Bilinear filtering widens what it reads; the squares are made narrower by half of that, which
-/// leaves the least error. (The variance of a square of side w is w^2/12, of the filter 1/6 texel.)
-constexpr float Narrowing = 0.9682f;
-constexpr int Turns = 4;
+/// Bilinear filtering widens what it reads: a square of side w has the variance w^2 / 12, a texel
+/// of filtering adds 1/6. Squares are made narrower by half of that, which leaves the least error.
+constexpr float Narrowing = 1.0f;
 constexpr int CellsPerEm = 512;
 /// Texels between images, so that filtering one never reads its neighbour.
 constexpr int Gap = 1;
@@ -74,6 +72,12 @@ float getAsciiOverhang(const GlyphSet& glyphs)
     return overhang;
 }
 
+/// em
+float getTexel(int level)
+{
+    return getBoxSide(level + 1) / TexelsPerBox;
+}
+
 std::uint8_t toByte(float share)
 {
     return static_cast<std::uint8_t>(std::lrint(255.0f * std::clamp(share, 0.0f, 1.0f)));
@@ -98,87 +102,105 @@ GlyphImages::GlyphImages(std::shared_ptr<const GlyphSet> glyphs, float outlineWi
                                : std::min(std::max(1.5f, _glyphs->getCellAdvance()), 4.0f);
     for (int level = 0; level < Levels; ++level)
     {
-        const float texel = getBoxSide(level) / TexelsPerBox;
+        const float texel = getTexel(level);
         _levels.push_back(makeRectangle(cell, getMargin(level) + 0.5f * texel, 1.0f / texel));
     }
-    place(_levels);
     _distance = makeRectangle(cell, getDistanceMargin() + 0.5f / DistanceTexels, DistanceTexels);
+    _quarterStep = glm::ivec2(_distance.width / 2, _distance.height / 2);
+    _distance.width += 2 - _quarterStep.x;
+    _distance.height += 2 - _quarterStep.y;
+    place();
 }
 
 float GlyphImages::getMargin(int level) const
 {
     // Half the diagonal of a square, and the texel that filtering reads beyond it.
-    return _overhang + (0.7072f + 1.0f / TexelsPerBox) * getBoxSide(level);
+    return _overhang + 0.7072f * getBoxSide(level) + getTexel(level);
 }
 
-/// The largest first, the others in columns beside it.
-void GlyphImages::place(std::vector<ImageRectangle>& levels)
+/// In columns as high as the largest, each where it fits first; they come by falling height.
+void GlyphImages::place()
 {
-    int x = Gap, y = 0, columnWidth = 0;
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level)
+    std::vector<ImageRectangle*> rectangles{&_distance};
+    for (ImageRectangle& level : _levels)
+        rectangles.push_back(&level);
+    std::sort(rectangles.begin(), rectangles.end(),
+              [](const ImageRectangle* a, const ImageRectangle* b)
+              { return a->height > b->height; });
+    struct Column
     {
-        if (y > 0 && y + level->height > _boxesHeight)
+        int x, height;
+    };
+    std::vector<Column> columns;
+    _height = rectangles.front()->height;
+    _width = Gap; // the first texel is the advance
+    for (ImageRectangle* const rectangle : rectangles)
+    {
+        auto column = std::find_if(columns.begin(), columns.end(),
+                                   [&](const Column& candidate)
+                                   { return candidate.height + rectangle->height <= _height; });
+        if (column == columns.end())
         {
-            x += columnWidth + Gap;
-            y = columnWidth = 0;
+            column = columns.insert(column, {_width, 0});
+            _width += rectangle->width + Gap;
         }
-        moveTo(*level, x, y);
-        y += level->height + Gap;
-        columnWidth = std::max(columnWidth, level->width);
-        _boxesHeight = std::max(_boxesHeight, level->height);
-        _boxesWidth = x + columnWidth;
+        moveTo(*rectangle, column->x, column->height);
+        column->height += rectangle->height + Gap;
     }
 }
 
-std::size_t GlyphImages::getBoxesBytes() const
+std::size_t GlyphImages::getBytes() const
 {
-    return 4u * static_cast<std::size_t>(_boxesWidth) * static_cast<std::size_t>(_boxesHeight);
+    return 4u * static_cast<std::size_t>(_width) * static_cast<std::size_t>(_height);
 }
 
-std::size_t GlyphImages::getDistanceBytes() const
-{
-    return static_cast<std::size_t>(_distance.width) * static_cast<std::size_t>(_distance.height);
-}
-
-GlyphOutline GlyphImages::getOutline(std::uint32_t code, int image) const
+GlyphOutline GlyphImages::getOutline(std::uint32_t code, int which) const
 {
     const GlyphOutline& outline = _glyphs->getGlyph(code)->outline;
-    return image ? grow(outline, _outlineWidth) : outline;
+    return which ? grow(outline, _outlineWidth) : outline;
 }
 
-std::vector<std::uint8_t> GlyphImages::makeBoxes(std::uint32_t code, int image) const
+std::vector<std::uint8_t> GlyphImages::make(std::uint32_t code, int which) const
 {
-    std::vector<std::uint8_t> pixels(getBoxesBytes());
-    const GlyphOutline outline = getOutline(code, image);
-    for (int channel = 0; channel < Turns; ++channel)
-    {
-        const float angle = static_cast<float>(channel) * 1.570796327f / Turns;
-        const float c = std::cos(angle), s = std::sin(angle);
-        const BoxSums sums(turn(outline, angle), CellsPerEm);
-        for (int level = 0; level < Levels; ++level)
-        {
-            const ImageRectangle& rectangle = _levels[static_cast<std::size_t>(level)];
-            for (int y = 0; y < rectangle.height; ++y)
-                for (int x = 0; x < rectangle.width; ++x)
-                {
-                    const glm::vec2 p = getPlace(rectangle, x, y);
-                    const glm::vec2 turned(c * p.x + s * p.y, c * p.y - s * p.x);
-                    const int texel = (rectangle.y + y) * _boxesWidth + rectangle.x + x;
-                    pixels[static_cast<std::size_t>(4 * texel + channel)] =
-                        toByte(sums.getShare(turned, Narrowing * getBoxSide(level)));
-                }
-        }
-    }
+    std::vector<std::uint8_t> pixels(getBytes());
+    const GlyphOutline outline = getOutline(code, which);
+    drawBoxes(outline, pixels);
+    drawDistances(outline, pixels);
     const float advance = std::min(_glyphs->getGlyph(code)->advance, 255.0f);
-    const auto fixed = static_cast<std::uint32_t>(std::lround(advance * 16777216.0));
+    const auto fixed = static_cast<std::uint32_t>(std::llround(advance * 16777216.0));
     for (unsigned int i = 0; i < 4; ++i)
         pixels[i] = static_cast<std::uint8_t>(fixed >> (24 - 8 * i));
     return pixels;
 }
 
-float GlyphImages::getMeanCoverage(std::uint32_t code, int image) const
+void GlyphImages::drawBoxes(const GlyphOutline& outline, std::vector<std::uint8_t>& pixels) const
 {
-    const double ink = BoxSums(getOutline(code, image), 64).getTotal();
+    for (int channel = 0; channel < 4; ++channel)
+    {
+        const float angle = channel % 2 ? 0.785398163f : 0.0f;
+        const float c = std::cos(angle), s = std::sin(angle);
+        const BoxSums sums(turn(outline, angle), CellsPerEm);
+        for (int level = 0; level < Levels; ++level)
+        {
+            const ImageRectangle& rectangle = _levels[static_cast<std::size_t>(level)];
+            const float side = getBoxSide(level + channel / 2), texel = getTexel(level);
+            const float narrowed = std::sqrt(side * side - Narrowing * texel * texel);
+            for (int y = 0; y < rectangle.height; ++y)
+                for (int x = 0; x < rectangle.width; ++x)
+                {
+                    const glm::vec2 p = getPlace(rectangle, x, y);
+                    const glm::vec2 turned(c * p.x + s * p.y, c * p.y - s * p.x);
+                    const int i = (rectangle.y + y) * _width + rectangle.x + x;
+                    pixels[static_cast<std::size_t>(4 * i + channel)] =
+                        toByte(sums.getShare(turned, narrowed));
+                }
+        }
+    }
+}
+
+float GlyphImages::getMeanCoverage(std::uint32_t code, int which) const
+{
+    const double ink = BoxSums(getOutline(code, which), 64).getTotal();
     return static_cast<float>(ink / std::max(1e-6f, _glyphs->getGlyph(code)->advance));
 }
 

@@ -11,7 +11,7 @@
 namespace osgLabels
 {
 
-/// Where one image of a glyph lies in its layer. The place p in em, x from the left of the glyph's
+/// Where one level of a glyph's image lies. The place p in em, x from the left of the glyph's
 /// cell, is at p * scale + offset in texels.
 struct ImageRectangle
 {
@@ -20,16 +20,17 @@ struct ImageRectangle
     glm::vec2 offset{0.0f};
 };
 
-/// Makes the images of a glyph that coverage.glsl reads. Free of OSG and GL.
+/// Makes the image of a glyph that coverage.glsl reads, RGBA of 8 bits. Free of OSG and GL.
 ///
-/// Small letters: "boxes", coverage averaged over squares as large as a pixel, so that one look-up
-/// is a pixel's coverage. Levels go by the square root of 2 from 1/2 em to 1/22.6 em; the four
-/// channels are squares turned by 0, 22.5, 45 and 67.5 degrees. Large letters: the distance to the
-/// outline, positive inside, which stays sharp at any size.
+/// For small letters, in levels that go by the square root of 2: coverage averaged over squares as
+/// large as a pixel, so that one look-up is a pixel's coverage. R and G are of a square of
+/// getBoxSide(level), upright and turned by 45 degrees, B and A of one of getBoxSide(level + 1).
+/// For large letters: the distance to the outline, positive inside, which stays sharp at any size.
+/// Its lower left, lower right, upper left and upper right quarter are in R, G, B and A.
 class OSGLABELS_EXPORT GlyphImages
 {
 public:
-    static constexpr int Levels = 8;
+    static constexpr int Levels = 7;
     static constexpr int DistanceTexels = 128;                     ///< An em.
     static constexpr float DistanceSpread = 4.0f / DistanceTexels; ///< em that 0 and 1 stand for.
 
@@ -46,39 +47,44 @@ public:
     float getOverhang() const { return _overhang; }
 
     const std::vector<ImageRectangle>& getLevels() const { return _levels; }
+
+    /// As if it were one image; a quarter's rectangle is in width and height.
     const ImageRectangle& getDistance() const { return _distance; }
+
+    /// From a quarter's texels to those of the next, in the whole image.
+    const glm::ivec2& getQuarterStep() const { return _quarterStep; }
 
     /// How far around the cell and the line an image reaches, in em; it is empty from there on.
     float getMargin(int level) const;
     float getDistanceMargin() const { return _overhang + DistanceSpread; }
 
-    /// Of one layer of boxes, 4 bytes a texel, and of distance, 1 byte a texel.
-    int getBoxesWidth() const { return _boxesWidth; }
-    int getBoxesHeight() const { return _boxesHeight; }
-    std::size_t getBoxesBytes() const;
-    std::size_t getDistanceBytes() const;
+    int getWidth() const { return _width; }
+    int getHeight() const { return _height; }
+    std::size_t getBytes() const;
 
-    /// The pixels of a glyph's boxes, and in the first texel its advance in units of 2^-24 em, most
-    /// significant byte first, at most 255. `image`: 0 for the ink, 1 for the grown ink.
-    std::vector<std::uint8_t> makeBoxes(std::uint32_t code, int image) const;
-    std::vector<std::uint8_t> makeDistance(std::uint32_t code, int image) const;
+    /// The image's rows from the bottom. Its first texel is the glyph's advance in units of 2^-24
+    /// em, most significant byte first. `which`: 0 for the ink, 1 for the grown ink.
+    std::vector<std::uint8_t> make(std::uint32_t code, int which) const;
 
     /// Share of the cell that the glyph's ink covers.
-    float getMeanCoverage(std::uint32_t code, int image) const;
+    float getMeanCoverage(std::uint32_t code, int which) const;
 
 private:
-    GlyphOutline getOutline(std::uint32_t code, int image) const;
-    void place(std::vector<ImageRectangle>& levels);
+    GlyphOutline getOutline(std::uint32_t code, int which) const;
+    void place();
+    void drawBoxes(const GlyphOutline& outline, std::vector<std::uint8_t>& pixels) const;
+    void drawDistances(const GlyphOutline& outline, std::vector<std::uint8_t>& pixels) const;
 
     const std::shared_ptr<const GlyphSet> _glyphs;
     const float _outlineWidth;
     float _overhang = 0.0f;
     std::vector<ImageRectangle> _levels;
     ImageRectangle _distance;
-    int _boxesWidth = 0, _boxesHeight = 0;
+    glm::ivec2 _quarterStep{0};
+    int _width = 0, _height = 0;
 };
 
-/// Side of the squares of a level in em.
+/// Side of the squares of a level in em: 1/2 for level 0.
 OSGLABELS_EXPORT float getBoxSide(int level);
 
 /// The outline with all that is within `width` of it, filled where the winding number is not 0.

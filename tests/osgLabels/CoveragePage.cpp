@@ -147,7 +147,7 @@ osg::ref_ptr<osg::Node> CoveragePage::makeNode(const CoverageView& view,
 {
     const osg::ref_ptr<osg::Node> node =
         makeNode(view,
-                 std::string(osgLabels::shaders::coverage_glsl) +
+                 atlas.getDefines() + osgLabels::shaders::coverage_glsl +
                      "float shade(osgLabels_Text text, vec2 place, mat2 footprint)\n"
                      "{ return osgLabels_coverage(text, place, footprint); }\n",
                  copies);
