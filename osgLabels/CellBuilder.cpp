@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "CellBuilder.h"
 
+#include <osgLabels/UnitMesh.h>
+
 #include <osg/BoundingBox>
 
 #include <algorithm>
@@ -58,8 +60,8 @@ void CellBuilder::addCell(Index* first, Index* last)
     const auto keyOf = [this](Index i)
     {
         const PrimitiveBatch::Added& added = _added[i];
-        return std::make_tuple(added.color.a() < 255, added.record.shape, -reachOf(added.record),
-                               i);
+        return std::make_tuple(added.color.a() < 255, kindOf(added.record).number(),
+                               -reachOf(added.record), i);
     };
     std::sort(first, last, [&](Index a, Index b) { return keyOf(a) < keyOf(b); });
     osg::BoundingBoxd box;
@@ -71,7 +73,8 @@ void CellBuilder::addCell(Index* first, Index* last)
     for (const Index* i = first; i != last; ++i)
     {
         const bool transparent = _added[*i].color.a() < 255;
-        if (i == first || _added[i[-1]].record.shape != _added[*i].record.shape ||
+        if (i == first ||
+            kindOf(_added[i[-1]].record).number() != kindOf(_added[*i].record).number() ||
             (_added[i[-1]].color.a() < 255) != transparent)
             _content.runs.push_back(
                 {static_cast<unsigned int>(_content.cells.size()), 0, transparent});

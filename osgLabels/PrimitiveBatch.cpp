@@ -258,11 +258,13 @@ std::string PrimitiveBatch::check(const Content& content) const
         RecordPage& records = *content.pages[std::size_t(page - starts.begin())];
         if (inRuns - *page + run.count > records.size())
             return "a run over two pages";
-        const std::uint32_t shape = records.getRecord(unsigned(inRuns - *page)).shape;
+        const ObjectRecord first = records.getRecord(unsigned(inRuns - *page));
         for (unsigned int o = 0; o < run.count; ++o)
-            if (records.getRecord(unsigned(inRuns - *page) + o).shape != shape ||
-                !isPrimitive(Shape(shape)))
+        {
+            const ObjectRecord record = records.getRecord(unsigned(inRuns - *page) + o);
+            if (!isPrimitive(shapeOf(record)) || kindOf(record).number() != kindOf(first).number())
                 return "a shape that can't be drawn";
+        }
         cell = run.cell;
         inRuns += run.count;
     }

@@ -5,28 +5,29 @@
 #include <osg/observer_ptr>
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 
 namespace osgLabels
 {
 
-osg::ref_ptr<const PrimitiveMeshes> PrimitiveMeshes::of(Shape shape)
+osg::ref_ptr<const PrimitiveMeshes> PrimitiveMeshes::of(const MeshKind& kind)
 {
     static std::mutex mutex;
-    static std::array<osg::observer_ptr<PrimitiveMeshes>, 16> shared;
+    static std::map<std::uint32_t, osg::observer_ptr<PrimitiveMeshes>> shared;
     const std::lock_guard<std::mutex> lock(mutex);
-    osg::observer_ptr<PrimitiveMeshes>& known = shared[std::size_t(shape) % shared.size()];
+    osg::observer_ptr<PrimitiveMeshes>& known = shared[kind.number()];
     osg::ref_ptr<PrimitiveMeshes> meshes;
     if (!known.lock(meshes))
-        known = meshes = new PrimitiveMeshes(shape);
+        known = meshes = new PrimitiveMeshes(kind);
     return meshes;
 }
 
-PrimitiveMeshes::PrimitiveMeshes(Shape shape) : osg::Referenced(true)
+PrimitiveMeshes::PrimitiveMeshes(const MeshKind& kind) : osg::Referenced(true)
 {
-    for (int i = 0; i < levelsOf(shape); ++i)
+    for (int i = 0; i < levelsOf(kind.shape); ++i)
     {
-        Level level{makeUnitMesh(shape, LevelSides[i]), _indices->size()};
+        Level level{makeUnitMesh(kind, LevelSides[i]), _indices->size()};
         const std::size_t first = _positions->size();
         for (const SurfacePoint& point : level.mesh.points)
         {

@@ -6,18 +6,16 @@
 #include <osg/Array>
 #include <osg/PrimitiveSet>
 
-#include <array>
-
 namespace osgLabels
 {
 
-/// The unit meshes of one shape, level by level, in one vertex and one index buffer. All batches
+/// The unit meshes of one kind, level by level, in one vertex and one index buffer. All batches
 /// share them.
 class PrimitiveMeshes : public osg::Referenced
 {
 public:
-    /// Those of `shape`, made at the first call and kept while somebody has them. Any thread.
-    static osg::ref_ptr<const PrimitiveMeshes> of(Shape shape);
+    /// Those of `kind`, made at the first call and kept while somebody has them. Any thread.
+    static osg::ref_ptr<const PrimitiveMeshes> of(const MeshKind& kind);
 
     struct Level
     {
@@ -38,7 +36,7 @@ protected:
     ~PrimitiveMeshes() override = default;
 
 private:
-    explicit PrimitiveMeshes(Shape shape);
+    explicit PrimitiveMeshes(const MeshKind& kind);
 
     std::vector<Level> _levels;
     osg::ref_ptr<osg::Vec3Array> _positions = new osg::Vec3Array;

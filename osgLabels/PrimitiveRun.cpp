@@ -125,7 +125,7 @@ PrimitiveRun::PrimitiveRun(RecordPage* page, unsigned int first, unsigned int co
     setUseDisplayList(false);
     setUseVertexBufferObjects(true);
     if (count)
-        _meshes = PrimitiveMeshes::of(_shape);
+        _meshes = PrimitiveMeshes::of(kindOf(page->getRecord(first)));
     findCurves();
 }
 

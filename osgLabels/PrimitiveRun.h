@@ -15,7 +15,7 @@ namespace osgLabels
 class PixelScale;
 class PrimitiveMeshes;
 
-/// Objects of one shape in one cell of a PrimitiveBatch, drawn by instancing.
+/// Objects of one shape, and one MeshKind, in one cell of a PrimitiveBatch, drawn by instancing.
 ///
 /// Visitors see the triangles of each object, one object after the other, all with the same number
 /// of triangles: of the level VisitorLevel. Made by PrimitiveBatch; a default one is empty.
@@ -23,7 +23,7 @@ class OSGLABELS_EXPORT PrimitiveRun : public osg::Drawable
 {
 public:
     PrimitiveRun();
-    /// `count` records of the page from `first` on, all of one shape, the farthest-reaching first;
+    /// `count` records of the page from `first` on, all of one kind, the farthest-reaching first;
     /// `firstObject` is the number of the first one in its batch.
     PrimitiveRun(RecordPage* page, unsigned int first, unsigned int count,
                  unsigned int firstObject);

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace osgLabels
@@ -136,16 +137,16 @@ void addDome(MeshBuilder& mesh, int sides, bool half)
 }
 
 /// x: along the turn, 0 to 1; y and z: around the tube. See placePoint().
-void addTorus(MeshBuilder& mesh, int sides)
+void addTorus(MeshBuilder& mesh, int sides, int segments)
 {
     const auto ring = [sides](int i, float x)
     {
         const vec3 c = onCircle(i, sides);
         return vec3(x, c.x, c.y);
     };
-    mesh.grid(sides, sides,
+    mesh.grid(segments, sides,
               [=](int i, int j) -> SurfacePoint {
-                  return {ring(j, float(i) / float(sides)), ring(j, 0.0f)};
+                  return {ring(j, float(i) / float(segments)), ring(j, 0.0f)};
               });
     mesh.disc(sides, vec3(-1.0f, 0.0f, 0.0f), [=](int i) { return ring(i, 0.0f); });
     mesh.disc(sides, vec3(1.0f, 0.0f, 0.0f), [=](int i) { return ring(sides - i, 1.0f); });
@@ -153,10 +154,25 @@ void addTorus(MeshBuilder& mesh, int sides)
 
 } // namespace
 
-UnitMesh makeUnitMesh(Shape shape, int sides)
+MeshKind kindOf(const ObjectRecord& record)
+{
+    MeshKind kind;
+    kind.shape = shapeOf(record);
+    if (kind.shape != Shape::Torus)
+        return kind;
+    // A little more than a quarter still is one.
+    const float turn = record.size.z / (1.02f * glm::half_pi<float>());
+    kind.quarters = turn <= 1.0f ? 1 : turn <= 2.0f ? 2 : 4;
+    // As the error of a polygon goes with the square of its sides.
+    const float share = record.size.y / (record.size.x + record.size.y);
+    kind.tubeDivisor = share > 0.3f ? 1 : share > 0.05f ? 2 : 4;
+    return kind;
+}
+
+UnitMesh makeUnitMesh(const MeshKind& kind, int sides)
 {
     MeshBuilder mesh;
-    switch (shape)
+    switch (kind.shape)
     {
     case Shape::Box:
     case Shape::Extrusion:
@@ -168,13 +184,14 @@ UnitMesh makeUnitMesh(Shape shape, int sides)
         break;
     case Shape::Sphere:
     case Shape::Dish:
-        addDome(mesh, sides, shape == Shape::Dish);
+        addDome(mesh, sides, kind.shape == Shape::Dish);
         break;
     case Shape::Pyramid:
         addPyramid(mesh);
         break;
     case Shape::Torus:
-        addTorus(mesh, sides);
+        addTorus(mesh, std::max(sides / kind.tubeDivisor, 4),
+                 std::max(sides * kind.quarters / 4, 2));
         break;
     case Shape::Quad:
         mesh.quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});

@@ -19,15 +19,6 @@ using namespace osgLabels;
 namespace
 {
 
-const UnitMesh& meshOf(Shape shape)
-{
-    static std::map<Shape, UnitMesh> meshes;
-    const auto [found, isNew] = meshes.try_emplace(shape);
-    if (isNew)
-        found->second = makeUnitMesh(shape, LevelSides[VisitorLevel]);
-    return found->second;
-}
-
 ObjectRecord recordOf(const Primitive& primitive)
 {
     const osg::Quat q = primitive.rotation.inverse();
@@ -40,10 +31,20 @@ ObjectRecord recordOf(const Primitive& primitive)
     return record;
 }
 
+const UnitMesh& meshOf(const ObjectRecord& record)
+{
+    static std::map<std::uint32_t, UnitMesh> meshes;
+    const MeshKind kind = kindOf(record);
+    const auto [found, isNew] = meshes.try_emplace(kind.number());
+    if (isNew)
+        found->second = makeUnitMesh(kind, LevelSides[VisitorLevel]);
+    return found->second;
+}
+
 osg::ref_ptr<osg::Geometry> geometryOf(const Primitive& primitive)
 {
-    const UnitMesh& mesh = meshOf(primitive.shape);
     const ObjectRecord record = recordOf(primitive);
+    const UnitMesh& mesh = meshOf(record);
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array, normals = new osg::Vec3Array;
     for (const SurfacePoint& unit : mesh.points)
     {
@@ -105,7 +106,7 @@ osg::ref_ptr<osg::Image> imageOf(const std::string& name)
 void addTexture(const Primitive& primitive, osg::Geometry& geometry)
 {
     osg::ref_ptr<osg::Vec2Array> coords = new osg::Vec2Array;
-    for (const SurfacePoint& unit : meshOf(primitive.shape).points)
+    for (const SurfacePoint& unit : meshOf(recordOf(primitive)).points)
         coords->push_back({0.5f + 0.5f * unit.position.x, 0.5f + 0.5f * unit.position.z});
     geometry.setTexCoordArray(0, coords);
     osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(imageOf(primitive.name));

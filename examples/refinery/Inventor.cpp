@@ -152,7 +152,7 @@ void InventorWriter::writeMesh(const Primitive& primitive, const std::string& ke
     ObjectRecord record;
     record.shape = std::uint32_t(primitive.shape);
     record.size = glm::vec3(size.x(), size.y(), size.z());
-    const UnitMesh mesh = makeUnitMesh(primitive.shape, Sides);
+    const UnitMesh mesh = makeUnitMesh(kindOf(record), Sides);
     std::string points, normals;
     for (const SurfacePoint& unit : mesh.points)
     {

@@ -26,6 +26,8 @@ void makeRefinery(const RefinerySettings& settings, const AddPrimitive& add)
     const double rows = std::ceil(plots / columns);
     const osg::Vec3d middle(0.5 * columns * ProcessUnit::Length,
                             0.5 * rows * (ProcessUnit::Depth + Road), 0.0);
+    parts.color.set(96, 104, 84, 255);
+    parts.ground({0.0, 0.0, -0.5}, middle.x() + 2.0 * Road, middle.y() + 2.0 * Road, "SITE");
     for (unsigned int i = 0; !parts.isDone(); ++i)
     {
         const osg::Vec3d corner(i % columns * ProcessUnit::Length,
