@@ -3,6 +3,7 @@
 
 #include <osgLabels/Chunkable.h>
 
+#include <osg/Material>
 #include <osg/MatrixTransform>
 
 #include <algorithm>
@@ -58,6 +59,7 @@ Chunks Chunker::chunk(osg::Group& group)
     _byKey.clear();
     _buckets.clear();
     _canonical.clear();
+    _made.clear();
     return std::move(_result);
 }
 
@@ -70,6 +72,27 @@ bool Chunker::leaveOut(const std::string& why)
 osg::StateSet* Chunker::canonical(osg::StateSet& stateSet)
 {
     return _canonical.emplace(&stateSet, &stateSet).first->second;
+}
+
+osg::StateSet* Chunker::canonicalOfColored(osg::StateSet& stateSet)
+{
+    // The colours of the vertices take the place of what the Material says: one for all then.
+    const auto* pair = stateSet.getAttributePair(osg::StateAttribute::MATERIAL);
+    const auto* material = pair ? static_cast<const osg::Material*>(pair->first.get()) : nullptr;
+    if (!material || (material->getColorMode() != osg::Material::DIFFUSE &&
+                      material->getColorMode() != osg::Material::AMBIENT_AND_DIFFUSE))
+        return canonical(stateSet);
+    osg::ref_ptr<osg::Material> same = osg::clone(material, osg::CopyOp::SHALLOW_COPY);
+    const osg::Vec4 white(1.0f, 1.0f, 1.0f, 1.0f);
+    same->setDiffuse(osg::Material::FRONT_AND_BACK, white);
+    if (material->getColorMode() == osg::Material::AMBIENT_AND_DIFFUSE)
+        same->setAmbient(osg::Material::FRONT_AND_BACK, white);
+    osg::ref_ptr<osg::StateSet> made = osg::clone(&stateSet, osg::CopyOp::SHALLOW_COPY);
+    made->setAttribute(same, pair->second);
+    osg::StateSet* found = canonical(*made);
+    if (found == made)
+        _made.push_back(made);
+    return found;
 }
 
 bool Chunker::enter(osg::Node& node)
@@ -155,6 +178,8 @@ bool Chunker::gather(osg::Drawable& drawable)
     StateChain state = _state;
     if (!drawable.getStateSet())
         state.push_back(nullptr);
+    else if (layout->colors != MeshLayout::NONE)
+        state.back() = canonicalOfColored(*drawable.getStateSet());
     const osg::Matrixd& matrix = _matrices.back();
     if (!isInvertible(matrix))
         return leaveOut("singular matrices");

@@ -92,6 +92,7 @@ private:
     bool enter(osg::Node& node);
     void leave(osg::Node& node);
     osg::StateSet* canonical(osg::StateSet& stateSet);
+    osg::StateSet* canonicalOfColored(osg::StateSet& stateSet);
     bool leaveOut(const std::string& why);
     Items& bucketOf(const Key& key);
     void split(Items::iterator begin, Items::iterator end, const Key& key, osg::Group& parent);
@@ -112,6 +113,7 @@ private:
     std::vector<osg::Matrixd> _matrices;
     StateChain _state;
     std::map<const osg::StateSet*, osg::StateSet*, ByContent> _canonical;
+    std::vector<osg::ref_ptr<osg::StateSet>> _made; ///< Of _canonical, not the model's.
     std::map<Key, std::size_t> _byKey;
     std::vector<Bucket> _buckets; ///< By first appearance, so that the order of drawing is kept.
 };

@@ -118,8 +118,10 @@ osg::ref_ptr<osg::Group> makePlant(std::mt19937& random, const osg::Vec3d& place
                                  osg::Vec4(0.2f * float(i % 3), 0.5f, 0.5f, 1.0f));
             transform->getStateSet()->setAttribute(material);
         }
-        if (i % 4 == 0)
+        if (i % 5 < 2)
             transform->getStateSet()->setAttribute(new osg::ShadeModel(osg::ShadeModel::FLAT));
+        if (i % 7 < 3)
+            transform->getStateSet()->setMode(GL_CULL_FACE, osg::StateAttribute::ON);
         plant->addChild(transform);
     }
     osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -329,6 +331,34 @@ TEST(ChunkerGLTest, equalStateBecomesOneChunkAndOtherStateAnother)
     const Chunks chunks = Chunker(numbers.function()).chunk(*group);
     EXPECT_EQ(chunks.chunks, 4u);
     EXPECT_EQ(chunks.vertices, 1800u);
+}
+
+TEST(ChunkerGLTest, coloursThatTheMaterialFollowsNeedNoChunkOfTheirOwn)
+{
+    OSGKITS_NEED_GL(viewer());
+    std::mt19937 random(2);
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    for (int i = 0; i < 60; ++i)
+    {
+        // As Inventor's reader does: the colour of the shape and that of its material agree.
+        osg::ref_ptr<osg::Geometry> mesh = makeMesh(GL_TRIANGLES, random, false);
+        osg::ref_ptr<osg::Material> material = new osg::Material;
+        const osg::Vec4 color(float(i % 4) / 4.0f, float(i % 3) / 3.0f, 0.5f, 1.0f);
+        material->setColorMode(osg::Material::DIFFUSE);
+        material->setDiffuse(osg::Material::FRONT_AND_BACK, color);
+        material->setShininess(osg::Material::FRONT_AND_BACK, i % 2 ? 10.0f : 20.0f);
+        static_cast<osg::Vec4Array&>(*mesh->getColorArray())[0] = color;
+        mesh->getOrCreateStateSet()->setAttributeAndModes(material);
+        osg::ref_ptr<osg::MatrixTransform> transform = new osg::MatrixTransform(anyMatrix(random));
+        transform->addChild(mesh);
+        group->addChild(transform);
+    }
+    support::CompareImage compare;
+    compare.threshold = 1.0 / 255.0;
+    compare.hardLimit = 1.0;
+    const Chunks chunks = expectSamePicture(*group, "chunksOfColours", 65536, compare);
+    EXPECT_EQ(chunks.gathered, 60u);
+    EXPECT_EQ(chunks.chunks, 2u);
 }
 
 TEST(ChunkerGLTest, objectsAreThoseOfTheCollector)
