@@ -127,7 +127,10 @@ std::size_t LabelCollector::add(const osg::Group& group, const osg::Drawable& dr
         auto instances = std::make_unique<Instances>();
         instances->finder = InstanceFinder(drawable.getBoundingBox(), paths);
         for (const osg::NodePath& path : paths)
+        {
             instances->objects.push_back(addObject(drawable, path));
+            instances->byPath.emplace(hashOf(path, path.size()), instances->objects.back());
+        }
         entry.instances = static_cast<std::uint32_t>(placeIn(_instances, _freeInstances));
         _instances[entry.instances] = std::move(instances);
     }
@@ -271,6 +274,20 @@ LabelCollector::Object LabelCollector::getObject(std::uint32_t object) const
     Object found = object < _objects.size() ? _objects[object] : Object();
     found.identifier += found.identifier ? _offset : 0;
     return found;
+}
+
+std::uint32_t LabelCollector::getObject(const osg::Group& group, const osg::NodePath& path)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const osg::Drawable* drawable = path.empty() ? nullptr : path.back()->asDrawable();
+    if (!drawable)
+        return 0;
+    const Entry& entry = _entries[entryOf(group, *drawable)];
+    if (!entry.instances)
+        return entry.object;
+    const auto& byPath = _instances[entry.instances]->byPath;
+    const auto found = byPath.find(hashOf(path, path.size()));
+    return found == byPath.end() ? 0 : found->second;
 }
 
 std::uint32_t LabelCollector::getObjectCount() const

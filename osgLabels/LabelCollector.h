@@ -83,6 +83,8 @@ public:
     /// The objects that are new since the last call; their numbers may have been others' before.
     std::vector<std::uint32_t> takeNew();
     Object getObject(std::uint32_t object) const;
+    /// The object that a path from the group to a Drawable is; 0 for no label.
+    std::uint32_t getObject(const osg::Group& group, const osg::NodePath& path);
     std::uint32_t getObjectCount() const; ///< All numbers are under it, the free ones too.
 
     /// Gives a label another text, until the last of its objects is gone. False for an identifier
@@ -107,7 +109,9 @@ private:
     {
         InstanceFinder finder;
         std::vector<std::uint32_t> objects; ///< One a path.
-        std::size_t view = 0;               ///< In which the finder was made.
+        /// Hash of a path → its object.
+        std::unordered_map<std::uint64_t, std::uint32_t> byPath;
+        std::size_t view = 0; ///< In which the finder was made.
     };
     struct Label
     {
