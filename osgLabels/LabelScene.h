@@ -71,6 +71,7 @@ public:
 protected:
     ~LabelScene() override;
 
+    void cullSubgraph(osg::NodeVisitor& visitor) override;
     std::unique_ptr<osgMultiRender::SurfacePass> createPass() const override;
 
 private:
