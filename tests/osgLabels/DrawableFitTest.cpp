@@ -2,6 +2,8 @@
 #include "PlacedShapes.h"
 
 #include <osgLabels/DrawableFit.h>
+#include <osgLabels/Placement.h>
+#include <osgLabels/TexCoordFit.h>
 
 #include <osg/ShapeDrawable>
 
@@ -96,4 +98,32 @@ TEST(DrawableFitTest, indicesBeyondTheVerticesAreLeftOut)
     lines->removePrimitiveSet(0);
     lines->addPrimitiveSet(new osg::DrawArrays(GL_LINES, 0, 8));
     EXPECT_EQ(int(fitDrawable(*lines).shape), int(Shape::None));
+}
+
+TEST(DrawableFitTest, textFollowsTextureCoordinatesUnstretched)
+{
+    // 4 by 1, its coordinates from 0 to 2 and from 1 to 2: a unit of s is 2 long, of t 1.
+    osg::ref_ptr<osg::Geometry> geometry = osg::createTexturedQuadGeometry(
+        osg::Vec3(5, 0, 0), osg::Vec3(4, 0, 0), osg::Vec3(0, 0, 1), 0.0f, 1.0f, 2.0f, 2.0f);
+    const FittedShape fit = fitTexCoords(*geometry, 0);
+    ASSERT_EQ(int(fit.shape), int(Shape::TexCoord));
+    EXPECT_LT(glm::distance(fit.size, glm::dvec3(2.0, 0.5, 0.0)), 1e-6);
+    EXPECT_LT(glm::distance(fit.origin, glm::dvec3(1.0, 1.5, 0.0)), 1e-6);
+    const float width = 5.0f;
+    const auto at = [&](float s, float t)
+    {
+        return placeOn(fit.record(1), {s - 1.0f, t - 1.5f, 0.0f}, {0.005f, 0, 0}, {0, 0.01f, 0},
+                       PlacementView(), width);
+    };
+    // One text in the middle, half as tall as the quad.
+    EXPECT_TRUE(at(1.0f, 1.5f).inside);
+    EXPECT_NEAR(at(1.0f, 1.5f).place.x, 2.5f, 1e-5f);
+    EXPECT_NEAR(at(1.0f, 1.74f).place.y, 0.98f, 1e-5f);
+    EXPECT_FALSE(at(1.0f, 1.76f).inside);
+    // A pixel is 0.01 long both ways: 0.02 em.
+    EXPECT_NEAR(at(1.0f, 1.5f).footprint[0].x, 0.02f, 1e-6f);
+    EXPECT_NEAR(at(1.0f, 1.5f).footprint[1].y, 0.02f, 1e-6f);
+    EXPECT_EQ(int(fitTexCoords(*geometry, 1).shape), int(Shape::None));
+    geometry->setTexCoordArray(0, new osg::Vec2Array(4));
+    EXPECT_EQ(int(fitTexCoords(*geometry, 0).shape), int(Shape::None));
 }
