@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/Export.h>
+
 #include <osg/Matrixd>
 #include <osg/RenderInfo>
 
@@ -8,11 +10,14 @@ namespace osgLabels
 {
 
 /// How many pixels a length of a drawable's local coordinates has in the view that is drawn.
-class PixelScale
+class OSGLABELS_EXPORT PixelScale
 {
 public:
+    /// `smallest`: radius in pixels under which nothing is drawn.
+    PixelScale(const osg::Matrixd& modelView, const osg::Matrixd& projection, double width,
+               double height, double smallest);
     /// Of the matrices and the viewport that are applied. The small-feature rule is the camera's.
-    explicit PixelScale(osg::RenderInfo& renderInfo);
+    static PixelScale of(osg::RenderInfo& renderInfo);
 
     /// Pixels a unit at eye depth z, where that is -1 one before the eye. Infinite at the eye and
     /// behind it in perspective.
@@ -34,7 +39,7 @@ public:
 private:
     osg::Matrixd _modelView;
     osg::Vec3d _depth;
-    double _depthOffset, _eyeScale, _pixels, _perZ, _atZero, _smallest = 0.0;
+    double _depthOffset, _eyeScale, _pixels, _perZ, _atZero, _smallest;
 };
 
 } // namespace osgLabels
