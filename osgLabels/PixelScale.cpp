@@ -22,6 +22,14 @@ PixelScale::PixelScale(const osg::Matrixd& modelView, const osg::Matrixd& projec
         const osg::Vec3d axis(modelView(i, 0), modelView(i, 1), modelView(i, 2));
         _eyeScale = std::max(_eyeScale, axis.length());
     }
+    const osg::Matrixd m = modelView * projection;
+    const auto column = [&m](int i) { return osg::Vec4d(m(0, i), m(1, i), m(2, i), m(3, i)); };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+        _planes[2 * axis].set(column(3) + column(axis));
+        _planes[2 * axis + 1].set(column(3) - column(axis));
+    }
+    _planes[4].set(column(3));
     _pixels =
         0.5 * std::max(std::abs(projection(0, 0)) * width, std::abs(projection(1, 1)) * height);
 }
@@ -44,6 +52,18 @@ double PixelScale::at(double z) const
 {
     const double w = _perZ * z + _atZero;
     return w > 0.0 ? _pixels * _eyeScale / w : std::numeric_limits<double>::infinity();
+}
+
+bool PixelScale::isOutside(const osg::Vec3d& center, double radius) const
+{
+    for (const osg::Plane& plane : _planes)
+    {
+        // In an orthographic view the eye's plane is none.
+        const double length = plane.getNormal().length();
+        if (length > 0.0 && plane.distance(center) < -radius * length)
+            return true;
+    }
+    return false;
 }
 
 bool PixelScale::isNear(const osg::Vec3d& center, double radius) const

@@ -235,9 +235,10 @@ void PrimitiveRun::forEachNear(const PixelScale& scale,
     {
         const ObjectRecord record = getRecord(i);
         const double reach = reachOf(record);
-        const double z = scale.depthOf({record.origin.x, record.origin.y, record.origin.z});
-        const double pixels = scale.at(z + reach * scale.eyeScale());
-        const bool drawn = !scale.isBehind(z, reach) && !(reach * pixels < scale.getSmallest());
+        const osg::Vec3d center(record.origin.x, record.origin.y, record.origin.z);
+        const double pixels = scale.at(scale.depthOf(center) + reach * scale.eyeScale());
+        const bool drawn =
+            !scale.isOutside(center, reach) && !(reach * pixels < scale.getSmallest());
         const float curve = curveOf(record);
         const int level = curve > 0.0f ? levelFor(float(curve * pixels)) : 0;
         if (range.count && (!drawn || level != range.level))

@@ -405,18 +405,26 @@ TEST(PrimitiveBatchTest, objectsAreCoarserFarAwayAndNotDrawnWhereTooSmall)
     const PrimitiveRun& run = *batch->getRuns()[0];
     const auto rangesAt = [&](double distance)
     {
-        const PixelScale scale(osg::Matrixd::lookAt(osg::Vec3d(0.0, -distance, 0.0), osg::Vec3d(),
+        const double x = distance > 5.0 ? 2.0 : 0.0;
+        const PixelScale scale(osg::Matrixd::lookAt(osg::Vec3d(x, -distance, 0.0),
+                                                    osg::Vec3d(x, 0.0, 0.0),
                                                     osg::Vec3d(0.0, 0.0, 1.0)),
                                osg::Matrixd::perspective(40.0, 1.0, 0.1, 1e5), 1000.0, 1000.0, 2.0);
         std::vector<PrimitiveRun::Range> ranges;
         run.forEachRange(scale, [&](const PrimitiveRun::Range& r) { ranges.push_back(r); });
         return ranges;
     };
-    const auto near = rangesAt(5.0), middle = rangesAt(100.0), far = rangesAt(3000.0);
-    unsigned int drawn = 0;
-    for (const auto& range : near)
-        drawn += range.count;
-    EXPECT_EQ(drawn, 40u);
+    const auto near = rangesAt(4.0), whole = rangesAt(8.0), middle = rangesAt(100.0),
+               far = rangesAt(3000.0);
+    const auto drawn = [](const std::vector<PrimitiveRun::Range>& ranges)
+    {
+        unsigned int count = 0;
+        for (const auto& range : ranges)
+            count += range.count;
+        return count;
+    };
+    EXPECT_EQ(drawn(near), 20u); // the small ones lie beside the view
+    EXPECT_EQ(drawn(whole), 40u);
     EXPECT_LE(near[0].level, 1);
     ASSERT_EQ(middle.size(), 1u);
     EXPECT_EQ(middle[0].count, 20u); // 0.01 at 100 are 0.14 pixels
