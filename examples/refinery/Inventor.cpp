@@ -81,7 +81,9 @@ std::string legalDefName(const std::string& name)
 
 InventorWriter::InventorWriter(std::ostream& out) : _out(out)
 {
+    // Inventor has y up, and readers turn it.
     _out << "#Inventor V2.1 ascii\nSeparator {\n"
+            "Rotation { rotation 1 0 0 -1.57079633 }\n"
             "ShapeHints { vertexOrdering COUNTERCLOCKWISE creaseAngle 0.6 }\n";
 }
 
