@@ -102,8 +102,9 @@ void InventorWriter::add(const Primitive& primitive)
     if (x == 0.0 && y == 0.0 && z == 0.0)
         z = 1.0;
     const osg::Vec3d& at = primitive.position;
-    _out << "DEF " << legalDefName(primitive.name) << " Separator {\nTransform { translation "
-         << numbers({at.x(), at.y(), at.z()});
+    if (!primitive.name.empty())
+        _out << "DEF " << legalDefName(primitive.name) << " ";
+    _out << "Separator {\nTransform { translation " << numbers({at.x(), at.y(), at.z()});
     if (angle != 0.0)
         _out << " rotation " << numbers({x, y, z, angle});
     if (!isBuiltIn(primitive.shape))

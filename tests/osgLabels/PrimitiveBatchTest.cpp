@@ -405,7 +405,7 @@ TEST(PrimitiveBatchTest, objectsAreCoarserFarAwayAndNotDrawnWhereTooSmall)
     const PrimitiveRun& run = *batch->getRuns()[0];
     const auto rangesAt = [&](double distance)
     {
-        const double x = distance > 5.0 ? 2.0 : 0.0;
+        const double x = distance > 5.0 ? 0.0 : -1.95; // the cell lies at 1.95
         const PixelScale scale(osg::Matrixd::lookAt(osg::Vec3d(x, -distance, 0.0),
                                                     osg::Vec3d(x, 0.0, 0.0),
                                                     osg::Vec3d(0.0, 0.0, 1.0)),
