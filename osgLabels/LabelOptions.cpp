@@ -229,7 +229,7 @@ std::string quoted(const std::string& value)
 const std::vector<LabelOption>& labelOptions()
 {
     static const std::vector<LabelOption> options = {
-        text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv|file.json>",
+        text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv>|<file.json>",
              "What is written on an object: its nearest name, its description, a user value, or "
              "what a table has for its name"),
         matchOption(),

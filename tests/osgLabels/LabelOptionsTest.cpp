@@ -61,8 +61,8 @@ TEST(LabelOptionsTest, eachOptionSetsItsOwnAndSaysItAgain)
         EXPECT_NE(option.format(settings), Changed.at(option.name));
         EXPECT_EQ(option.parse(settings, Changed.at(option.name)), "") << option.name;
         for (const LabelOption& other : labelOptions())
-            EXPECT_EQ(other.format(settings), other.name == option.name ? Changed.at(option.name)
-                                                                        : other.format(defaults))
+            EXPECT_EQ(other.format(settings),
+                      other.name == option.name ? Changed.at(option.name) : other.format(defaults))
                 << option.name << " and " << other.name;
     }
 }
@@ -128,9 +128,11 @@ TEST(LabelOptionsTest, noOptionButThoseOfTextTakesAnythingElse)
     {
         if (option.name == "text" || option.name == "font" || option.name == "match")
             continue;
-        for (const char* text : {"", " ", "x1", "1x", "0x10", "nan", "inf", "1e999", "-2", "1 2",
-                                 "+1", "1,5", "On", "#", "#12345", "#12345g", "#1234567", "# 23456",
-                                 "#+12345", "#ffffff:", "#ffffff:nan", ":0.05", "off:0.1"})
+        for (const char* text :
+             {"",        " ",        "x1",          "1x",      "0x10",     "nan",
+              "inf",     "1e999",    "-2",          "1 2",     "+1",       "1,5",
+              "On",      "#",        "#12345",      "#12345g", "#1234567", "# 23456",
+              "#+12345", "#ffffff:", "#ffffff:nan", ":0.05",   "off:0.1"})
         {
             LabelSettings settings;
             const std::string before = option.format(settings);

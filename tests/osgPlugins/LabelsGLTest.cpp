@@ -50,8 +50,7 @@ protected:
             for (int x = 0; x < picture.s(); ++x)
             {
                 const osg::Vec4 color = picture.getColor(unsigned(x), unsigned(y));
-                const float others =
-                    std::max(color[(channel + 1) % 3], color[(channel + 2) % 3]);
+                const float others = std::max(color[(channel + 1) % 3], color[(channel + 2) % 3]);
                 count += color[channel] > others + 0.5f;
             }
         return double(count) / (picture.s() * picture.t());
@@ -99,7 +98,7 @@ TEST_F(LabelsPlugin, bothKitsDrawTheSameInEitherOrder)
     const Picture shadowed = view(_model + ".shadowvolume");
     ASSERT_TRUE(inner && outer && shadowed);
     EXPECT_TRUE(support::CompareImage()(inner, outer, "labels.order"));
-    EXPECT_GT(shareOf(*inner, 0), 0.01);
+    EXPECT_GT(shareOf(*inner, 0), 0.002);
     EXPECT_TRUE(differ(*inner, *shadowed));
 }
 
@@ -110,18 +109,15 @@ TEST_F(LabelsPlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
                      "size, gap, readable, up, texcoord, chunk, ink, plate, outline, keys"},
         {"size=3", "labels: setting 'size': '3' is no number of 0.05..0.9"},
         {"ink=red", "labels: setting 'ink': 'red' is neither auto nor a visible colour #rrggbb"},
-        {"match=(", "labels: bracket that opens at character 7 of 'match=(' is not closed"}};
+        {"match=(",
+         "labels: bracket that opens at character 14 of 'labels.match=(' is not closed"}};
     for (const auto& [settings, message] : cases)
     {
         const std::string file = _folder.file("wrong.osgt");
         const support::ProcessResult result =
             run({"osgconv", "-O", std::string("labels.") + settings, _model + ".labels", file});
         const std::string text = result.output + result.errors;
-        const std::string expected =
-            std::string(settings) == "match=("
-                ? "labels: bracket that opens at character 14 of 'labels.match=(' is not closed"
-                : message;
-        EXPECT_NE(text.find(expected), std::string::npos) << text;
+        EXPECT_NE(text.find(message), std::string::npos) << text;
         EXPECT_NE(result.exitCode, 0) << settings;
         EXPECT_FALSE(std::filesystem::exists(file)) << settings;
     }
@@ -135,9 +131,9 @@ TEST_F(LabelsPlugin, osgconvListsTheOptions)
 {
     const support::ProcessResult result = run({"osgconv", "--format", "labels"});
     for (const osgLabels::LabelOption& option : osgLabels::labelOptions())
-        EXPECT_NE((result.output + result.errors).find("labels." + option.name + "=" +
-                                                       option.values),
-                  std::string::npos)
+        EXPECT_NE(
+            (result.output + result.errors).find("labels." + option.name + "=" + option.values),
+            std::string::npos)
             << option.name << result.output;
 }
 
@@ -153,7 +149,7 @@ TEST_F(LabelsPlugin, savedScenesLookTheSameWhenReadAgain)
     const std::string decorated = _model + ".(ink=#ff0000,size=0.4).labels";
     const Picture first = view(decorated);
     ASSERT_TRUE(first.valid());
-    EXPECT_GT(shareOf(*first, 0), 0.01);
+    EXPECT_GT(shareOf(*first, 0), 0.002);
     for (const char* extension : Formats)
     {
         const std::string saved = convert(decorated, std::string("saved.") + extension);
@@ -170,9 +166,9 @@ TEST_F(LabelsPlugin, bothKitsAreSavedInEachFormat)
     const Picture first = view(decorated);
     ASSERT_TRUE(first.valid());
     for (const char* extension : Formats)
-        EXPECT_TRUE(support::CompareImage()(
-            view(convert(decorated, std::string("kits.") + extension)), first,
-            std::string("labels.kits.") + extension));
+        EXPECT_TRUE(
+            support::CompareImage()(view(convert(decorated, std::string("kits.") + extension)),
+                                    first, std::string("labels.kits.") + extension));
 }
 
 TEST_F(LabelsPlugin, allSettingsAreSavedInEachFormat)
@@ -213,8 +209,8 @@ TEST_F(LabelsPlugin, unknownAndWrongSettingsInFilesAreNamedAndTheOthersCount)
 {
     const std::string osgt = std::string(Ascii) + R"(osgLabels::LabelScene {
   UniqueID 1
-  Settings TRUE "size='0.3',gap='wide',sparkle='on'"
-  Shown TRUE FALSE
+  Settings "size='0.3',gap='wide',sparkle='on'"
+  Shown FALSE
 }
 )";
     const std::string dotosg = R"(osgLabels::LabelScene {
