@@ -3,6 +3,8 @@
 
 #include <osg/NodeVisitor>
 
+#include <algorithm>
+
 namespace osgLabels
 {
 
@@ -46,47 +48,59 @@ std::uint32_t LabelBatches::collect(osg::Node& root, const LabelSource& source, 
             setText(first, *text);
             ++first;
         }
-        if (first > begin)
-            _batches[begin] = {batch.get(), first};
+        const std::uint32_t firstRecord = _numObjects + 1;
+        _batches.push_back({batch.get(), begin, first, firstRecord});
+        for (const osg::ref_ptr<PrimitiveRun>& run : batch->getRuns())
+            _bases[run.get()] =
+                int(firstRecord + run->getFirstObject()) - int(run->getFirstRecord());
+        _numObjects += batch->getNumObjects();
     }
     return first;
+}
+
+void LabelBatches::forEach(const std::function<void(const PrimitiveBatch&, std::uint32_t)>& f) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    osg::ref_ptr<PrimitiveBatch> batch;
+    for (const Entry& entry : _batches)
+        if (entry.batch.lock(batch))
+            f(*batch, entry.firstRecord);
+}
+
+std::optional<int> LabelBatches::recordBaseOf(const PrimitiveRun& run) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto found = _bases.find(&run);
+    return found == _bases.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+std::uint32_t LabelBatches::getNumObjects() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _numObjects;
 }
 
 LabelBatches::Found LabelBatches::find(std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    auto after = _batches.upper_bound(identifier);
-    if (after == _batches.begin())
-        return {};
-    const auto& [first, entry] = *--after;
+    const auto after = std::upper_bound(_batches.begin(), _batches.end(), identifier,
+                                        [](std::uint32_t value, const Entry& entry)
+                                        { return value < entry.endIdentifier; });
     Found found;
-    if (identifier >= entry.end || !entry.batch.lock(found.batch))
+    if (after == _batches.end() || identifier < after->firstIdentifier ||
+        !after->batch.lock(found.batch))
         return {};
     // Identifiers grow with the objects' numbers, with gaps where an object has no text.
-    for (found.object = identifier - first; found.object < found.batch->getNumObjects();
-         ++found.object)
+    for (found.object = identifier - after->firstIdentifier;
+         found.object < found.batch->getNumObjects(); ++found.object)
         if (found.batch->getIdentifier(found.object) == identifier)
             return found;
     return {};
 }
 
-std::size_t LabelBatches::getCount() const
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    std::size_t count = 0;
-    for (const auto& [first, entry] : _batches)
-        count += entry.end - first;
-    return count;
-}
-
 std::size_t LabelBatches::getBytes() const
 {
-    std::lock_guard<std::mutex> lock(_mutex);
-    std::size_t bytes = 0;
-    for (const auto& [first, entry] : _batches)
-        if (osg::ref_ptr<PrimitiveBatch> batch; entry.batch.lock(batch))
-            bytes += batch->getGpuBytes();
-    return bytes;
+    return std::size_t(getNumObjects()) * sizeof(std::uint32_t);
 }
 
 } // namespace osgLabels

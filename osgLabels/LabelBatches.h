@@ -7,8 +7,10 @@
 #include <osg/observer_ptr>
 
 #include <functional>
-#include <map>
 #include <mutex>
+#include <optional>
+#include <unordered_map>
+#include <vector>
 
 namespace osgLabels
 {
@@ -25,24 +27,32 @@ public:
     std::uint32_t collect(osg::Node& root, const LabelSource& source, std::uint32_t first,
                           const SetText& setText);
 
+    /// Calls `f` with each batch and the index of its first object's record.
+    void forEach(const std::function<void(const PrimitiveBatch&, std::uint32_t)>& f) const;
+    /// What has to be added to the place of a record in the run's page; none for a run of no batch.
+    std::optional<int> recordBaseOf(const PrimitiveRun& run) const;
+    /// Objects of all batches: so many records from 1 on are theirs.
+    std::uint32_t getNumObjects() const;
+
     struct Found
     {
         osg::ref_ptr<PrimitiveBatch> batch; ///< Null for an identifier of no batch.
         unsigned int object = 0;
     };
     Found find(std::uint32_t identifier) const;
-    std::size_t getCount() const;
-    /// Of their records and colours on the GPU.
+    /// Of their colours on the GPU.
     std::size_t getBytes() const;
 
 private:
     struct Entry
     {
         osg::observer_ptr<PrimitiveBatch> batch;
-        std::uint32_t end; ///< Behind its last identifier.
+        std::uint32_t firstIdentifier, endIdentifier, firstRecord;
     };
     mutable std::mutex _mutex;
-    std::map<std::uint32_t, Entry> _batches; ///< By first identifier.
+    std::vector<Entry> _batches; ///< By identifiers.
+    std::unordered_map<const PrimitiveRun*, int> _bases;
+    std::uint32_t _numObjects = 0;
 };
 
 } // namespace osgLabels

@@ -24,16 +24,19 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     if (!context.stateSet)
     {
         context.stateSet = new osg::StateSet;
-        context.texture =
-            new BufferTexture(state.getContextID(), 4, BufferTexture::needsPages(state));
-        // Without OVERRIDE: a PrimitiveBatch brings its own.
-        context.stateSet->setTextureAttribute(RecordsUnit, context.texture);
+        const bool isPaged = BufferTexture::needsPages(state);
+        context.texture = new BufferTexture(state.getContextID(), 4, isPaged);
+        // Over those of PrimitiveBatches, whose shader reads texture buffers only.
+        context.stateSet->setTextureAttribute(RecordsUnit, context.texture,
+                                              isPaged ? osg::StateAttribute::ON
+                                                      : osg::StateAttribute::OVERRIDE);
         context.stateSet->addUniform(new osg::Uniform("osgLabels_records", int(RecordsUnit)));
     }
     constexpr std::size_t bytes = sizeof(Words);
-    if (!context.texture->resize(state, _records.size() * bytes))
+    const std::size_t first = _batches.getNumObjects();
+    if (!context.texture->resize(state, (first + _records.size()) * bytes))
     {
-        context.texture->write(state, 0, _records.data(), _records.size() * bytes);
+        writeAll(state, *context.texture);
         context.changes = _changed.size();
     }
     std::vector<std::uint32_t> objects(_changed.begin() + std::ptrdiff_t(context.changes),
@@ -44,8 +47,9 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     {
         for (end = i + 1; end < objects.size() && objects[end] <= objects[end - 1] + 1;)
             ++end;
-        const std::size_t first = objects[i], last = objects[end - 1];
-        context.texture->write(state, first * bytes, &_records[first], (last + 1 - first) * bytes);
+        const std::size_t begin = objects[i], last = objects[end - 1];
+        context.texture->write(state, (first + begin) * bytes, &_records[begin],
+                               (last + 1 - begin) * bytes);
     }
     const bool allHave =
         std::all_of(_contexts.begin(), _contexts.end(),
@@ -59,10 +63,50 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     return context.stateSet.get();
 }
 
+void LabelObjects::writeAll(osg::State& state, BufferTexture& texture) const
+{
+    constexpr std::size_t bytes = sizeof(Words), most = 1u << 16;
+    const Words none{};
+    texture.write(state, 0, &none, bytes);
+    std::vector<Words> part;
+    _batches.forEach(
+        [&](const PrimitiveBatch& batch, std::uint32_t first)
+        {
+            for (unsigned int i = 0; i < batch.getNumObjects(); ++i)
+            {
+                part.push_back(batch.getRecord(i).pack());
+                if (part.size() < most && i + 1 < batch.getNumObjects())
+                    continue;
+                texture.write(state, (first + i + 1 - part.size()) * bytes, part.data(),
+                              part.size() * bytes);
+                part.clear();
+            }
+        });
+    if (_records.size() > 1)
+        texture.write(state, (_batches.getNumObjects() + 1) * bytes, &_records[1],
+                      (_records.size() - 1) * bytes);
+}
+
+std::uint32_t LabelObjects::getIdentifier(std::uint32_t index) const
+{
+    std::uint32_t identifier = 0;
+    _batches.forEach(
+        [&](const PrimitiveBatch& batch, std::uint32_t first)
+        {
+            if (index >= first && index - first < batch.getNumObjects())
+                identifier = batch.getIdentifier(index - first);
+        });
+    std::lock_guard<std::mutex> lock(_mutex);
+    const std::size_t object = std::size_t(index) - _batches.getNumObjects();
+    if (index > _batches.getNumObjects() && object < _records.size())
+        identifier = _records[object].back();
+    return identifier;
+}
+
 std::size_t LabelObjects::getBytes() const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return _records.size() * sizeof(Words);
+    return (_batches.getNumObjects() + _records.size()) * sizeof(Words);
 }
 
 void LabelObjects::releaseGLObjects(osg::State* state)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgLabels/BufferTexture.h>
+#include <osgLabels/LabelBatches.h>
 #include <osgLabels/ObjectRecord.h>
 
 #include <osg/StateSet>
@@ -14,12 +15,20 @@
 namespace osgLabels
 {
 
-/// The object records of a scene, and their copies on the GPU. Thread safe.
+/// The object records of a scene, and their copies on the GPU: first those of its batches, then one
+/// for each object that a LabelCollector has found. 0 is none. Thread safe.
 class LabelObjects
 {
 public:
-    /// Sets the record of an object.
+    /// `batches` have been collected, and live as long.
+    explicit LabelObjects(const LabelBatches& batches) : _batches(batches) {}
+
+    /// Sets the record of a collector's object.
     void set(std::uint32_t object, const ObjectRecord& record);
+    /// Of a collector's object.
+    std::uint32_t indexOf(std::uint32_t object) const { return _batches.getNumObjects() + object; }
+    /// The identifier of a record; 0 for none.
+    std::uint32_t getIdentifier(std::uint32_t index) const;
 
     /// Uploads what is new for the context, which is current. Returns texture and uniform.
     const osg::StateSet* update(osg::State& state);
@@ -37,8 +46,11 @@ private:
         std::size_t changes = 0; ///< How many of _changed it has taken.
     };
 
+    void writeAll(osg::State& state, BufferTexture& texture) const;
+
+    const LabelBatches& _batches;
     mutable std::mutex _mutex;
-    std::vector<Words> _records{1};      ///< By object; 0 is none.
+    std::vector<Words> _records{1};      ///< By the collector's number; 0 is none.
     std::vector<std::uint32_t> _changed; ///< Objects, in the order in which they were set.
     std::map<unsigned int, Context> _contexts;
 };

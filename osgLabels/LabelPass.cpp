@@ -121,10 +121,12 @@ std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollecto
 {
     const osg::Drawable& drawable = *leaf._drawable;
     if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
-        return _resources->batches.getCount() ? 1 : 0;
+        return _resources->batches.recordBaseOf(static_cast<const PrimitiveRun&>(drawable))
+                   ? SaysItself
+                   : 0;
     const osg::Geometry* geometry = drawable.asGeometry();
     if (geometry && geometry->getVertexAttribArray(indexAttribute)) // likewise
-        return 1;
+        return SaysItself;
     return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
@@ -151,7 +153,8 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
     _targets = _resources->targets.acquire(
-        _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
+        _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3],
+                     _resources->settings.texCoord >= 0, _target});
 }
 
 void LabelPass::makeUnder(osg::State& state)
@@ -162,7 +165,7 @@ void LabelPass::makeUnder(osg::State& state)
     add(new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
                                                          2.0f / float(std::max(1, _viewport[2])),
                                                          2.0f / float(std::max(1, _viewport[3])))));
-    add(new osg::Uniform("osgLabels_layoutOfText",
+    add(new osg::Uniform("osgLabels_line",
                          osg::Vec2(_resources->settings.size, _resources->settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
                                                         3 * int(LabelStyle::MaxStyles));
@@ -184,6 +187,8 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
         return;
     const auto found = _objects.find(&leaf);
     number = found == _objects.end() ? 0 : found->second;
+    if (key.instance && _isPaged) // reads its records from a texture buffer
+        number = 0;
     // What has no program of ours could not say that nothing is written on it.
     if (!ordered && state.isOpaque())
         key.output = Diverted;
@@ -205,58 +210,75 @@ void LabelPass::end(osg::RenderInfo&) {}
 SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
 {
     SurfaceSnippet snippet;
-    const bool diverted = key.output & Diverted, labelled = key.output & Labelled;
+    const bool diverted = key.output & Diverted;
     if (diverted)
-        snippet.fragment = "layout(location = 1) out uint osgLabels_outIdentifier;\n"
-                           "layout(location = 2) out vec2 osgLabels_outPlace;\n"
-                           "layout(location = 3) out vec4 osgLabels_outFootprint;\n";
-    if (!labelled)
+        snippet.fragment = LabelSources::surface();
+    addTexCoords(key, snippet);
+    if (key.output & Labelled)
     {
-        if (diverted)
-            snippet.statements = "    osgLabels_outIdentifier = 0u;\n"
-                                 "    osgLabels_outPlace = vec2(-1.0);\n"
-                                 "    osgLabels_outFootprint = vec4(0.0);\n";
+        addIndex(key, snippet);
+        if (!diverted)
+            addLabel(key, snippet);
+    }
+    if (!diverted)
         return snippet;
-    }
+    snippet.fragment += "uniform int osgLabels_frame;\n";
+    snippet.statements += "    osgLabels_writeSurface(" +
+                          std::string(key.output & Labelled ? "osgLabels_index" : "0") +
+                          ", osgLabels_frame);\n";
+    return snippet;
+}
+
+void LabelPass::addIndex(const SurfaceKey& key, SurfaceSnippet& snippet)
+{
     if (key.output & OwnProgram)
+    {
         snippet.fragment += "uniform int osgLabels_index;\n";
-    else
-    {
-        // A PrimitiveBatch' VertexSnippet has the attribute already.
-        snippet.vertex = "#ifndef OSGLABELS_OBJECT\n"
-                         "#define OSGLABELS_OBJECT\n"
-                         "layout(location = 6) in int osgLabels_object;\n"
-                         "#endif\n"
-                         "flat out int osgLabels_index;\n";
-        snippet.vertexStatements = "    osgLabels_index = osgLabels_object + gl_InstanceID;\n";
-        snippet.fragment += "flat in int osgLabels_index;\n";
+        return;
     }
-    if (key.output & TexCoords)
+    // A PrimitiveBatch' VertexSnippet has the inputs already.
+    snippet.vertex += "#ifndef OSGLABELS_OBJECT\n"
+                      "#define OSGLABELS_OBJECT\n"
+                      "layout(location = 6) in int osgLabels_object;\n"
+                      "uniform int osgLabels_recordBase;\n"
+                      "#endif\n"
+                      "flat out int osgLabels_index;\n";
+    snippet.vertexStatements +=
+        "    osgLabels_index = osgLabels_object + gl_InstanceID + osgLabels_recordBase;\n";
+    snippet.fragment += "flat in int osgLabels_index;\n";
+}
+
+void LabelPass::addTexCoords(const SurfaceKey& key, SurfaceSnippet& snippet) const
+{
+    const bool diverted = key.output & Diverted, given = key.output & TexCoords;
+    if (given)
     {
-        const std::string unit = std::to_string(_resources->settings.texCoord);
+        const std::string unit = std::to_string(key.output >> UnitShift);
         snippet.vertex += "out vec2 osgLabels_texCoord;\n";
         snippet.vertexStatements += "    osgLabels_texCoord = gl_MultiTexCoord" + unit + ".xy;\n";
-        snippet.fragment += "#define OSGLABELS_TEXCOORD\nin vec2 osgLabels_texCoord;\n";
+        snippet.fragment += "in vec2 osgLabels_texCoord;\n";
     }
-    // Its records lie in a texture buffer of its own.
-    snippet.fragment += LabelSources::locate(key.output & Paged, key.instance == 0);
-    if (!diverted)
-        snippet.fragment += LabelSources::ink();
-    snippet.statements = "    osgLabels_Text osgLabels_text;\n"
-                         "    vec2 osgLabels_place;\n"
-                         "    mat2 osgLabels_footprint;\n"
-                         "    uint osgLabels_identifier = osgLabels_locate(osgLabels_text, "
-                         "osgLabels_place, osgLabels_footprint);\n";
-    snippet.statements += diverted
-                              ? "    osgLabels_outIdentifier = osgLabels_identifier;\n"
-                                "    osgLabels_outPlace = osgLabels_place;\n"
-                                "    osgLabels_outFootprint = vec4(osgLabels_footprint[0], "
-                                "osgLabels_footprint[1]);\n"
-                              : "    if (osgLabels_place.x >= 0.0)\n"
-                                "        osgmr_out0 = osgLabels_over(osgmr_out0, osgLabels_text, "
-                                "osgLabels_place, osgLabels_footprint, "
-                                "osgLabels_styleOf(osgLabels_identifier));\n";
-    return snippet;
+    if (!diverted || _resources->settings.texCoord < 0)
+        return;
+    snippet.fragment += "layout(location = 2) out vec2 osgLabels_outTexCoord;\n"
+                        "layout(location = 3) out vec4 osgLabels_outChange;\n";
+    snippet.statements += given ? "    osgLabels_outTexCoord = osgLabels_texCoord;\n"
+                                  "    osgLabels_outChange = vec4(dFdx(osgLabels_texCoord), "
+                                  "dFdy(osgLabels_texCoord));\n"
+                                : "    osgLabels_outTexCoord = vec2(0.0);\n"
+                                  "    osgLabels_outChange = vec4(0.0);\n";
+}
+
+void LabelPass::addLabel(const SurfaceKey& key, SurfaceSnippet& snippet)
+{
+    snippet.fragment +=
+        LabelSources::locate(key.output & Paged) + LabelSources::ink() + LabelSources::direct();
+    snippet.statements +=
+        key.output & TexCoords
+            ? "    osgmr_out0 = osgLabels_direct(osgmr_out0, osgLabels_index, osgLabels_texCoord, "
+              "vec4(dFdx(osgLabels_texCoord), dFdy(osgLabels_texCoord)));\n"
+            : "    osgmr_out0 = osgLabels_direct(osgmr_out0, osgLabels_index, vec2(0.0), "
+              "vec4(0.0));\n";
 }
 
 const osg::StateSet* LabelPass::startRun()
@@ -272,15 +294,14 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     const osg::Matrixd projection =
         leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd();
     // Clip coordinates x, y and w, or z where rays are parallel, of eye coordinates.
-    const bool parallel = isParallel(projection);
-    const int columns[3] = {0, 1, parallel ? 2 : 3};
+    const int columns[3] = {0, 1, isParallel(projection) ? 2 : 3};
     osg::Matrixd clip;
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
             clip(i, j) = projection(i, columns[j]);
     const osg::Matrixd toLocal = osg::Matrixd::inverse(modelview);
     const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
-    osg::Vec3d rows[10];
+    osg::Vec3d rows[9];
     for (int i = 0; i < 3; ++i)
         rows[i] = rotated(osg::Vec3d(toEye(i, 0), toEye(i, 1), toEye(i, 2)), toLocal);
     rows[3] = rotated(toEye.getTrans(), toLocal);
@@ -289,12 +310,21 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     rows[6] = rotated({0.0, 1.0, 0.0}, toLocal);
     rows[7] = rotated({0.0, 0.0, 1.0}, toLocal);
     rows[8] = rotated(_up, toLocal);
-    rows[9] = parallel ? osg::Vec3d(-1.0, 2.0, 0.0) : osg::Vec3d();
     Frame frame{};
-    for (int i = 0; i < 10; ++i)
+    for (int i = 0; i < 9; ++i)
         for (int j = 0; j < 3; ++j)
             frame[3 * i + j] = std::isfinite(rows[i][j]) ? float(rows[i][j]) : 0.0f;
     return frame;
+}
+
+int LabelPass::numberOf(const osgUtil::RenderLeaf& leaf)
+{
+    const auto [found, isNew] = _frameNumbers.emplace(
+        std::make_pair(leaf._modelview.get(), leaf._projection.get()), int(_frames.size()));
+    if (isNew)
+        _frames.push_back(frameOf(leaf));
+    const bool parallel = leaf._projection && isParallel(*leaf._projection);
+    return parallel ? -1 - found->second : found->second;
 }
 
 void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
@@ -305,20 +335,40 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
         return;
     // osg::Program trims "[0]" off the names of arrays.
     static const unsigned int frameName = osg::Uniform::getNameID("osgLabels_frame");
+    static const unsigned int valuesName = osg::Uniform::getNameID("osgLabels_frameValues");
     static const unsigned int indexName = osg::Uniform::getNameID("osgLabels_index");
+    static const unsigned int baseName = osg::Uniform::getNameID("osgLabels_recordBase");
     osg::State& state = *renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
+    const Index index = indexOf(leaf, number);
     if (bits & OwnProgram)
-        gl->glUniform1i(program.getUniformLocation(indexName), GLint(number));
+        gl->glUniform1i(program.getUniformLocation(indexName), index.object);
     else
-        Extensions::instance().vertexAttribI1i(indexAttribute, GLint(number));
+        Extensions::instance().vertexAttribI1i(indexAttribute, index.object);
     Applied& applied = _applied[&variant];
-    if (applied.isSet && applied.modelview == leaf._modelview.get() &&
-        applied.projection == leaf._projection.get())
+    if (!applied.isSet || applied.recordBase != index.base)
+        gl->glUniform1i(program.getUniformLocation(baseName), index.base);
+    const bool sameFrame = applied.isSet && applied.modelview == leaf._modelview.get() &&
+                           applied.projection == leaf._projection.get();
+    applied = {leaf._modelview.get(), leaf._projection.get(), index.base, true};
+    if (sameFrame)
         return;
-    applied = {leaf._modelview.get(), leaf._projection.get(), true};
-    gl->glUniform3fv(program.getUniformLocation(frameName), 10, frameOf(leaf).data());
+    const int frame = numberOf(leaf);
+    gl->glUniform1i(program.getUniformLocation(frameName), frame);
+    if (!(bits & Diverted))
+        gl->glUniform3fv(program.getUniformLocation(valuesName), 9,
+                         _frames[frame < 0 ? -1 - frame : frame].data());
+}
+
+LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const
+{
+    if (number != SaysItself)
+        return {GLint(_resources->objects.indexOf(number)), 0};
+    // The drawable sets the attribute, or has an array of it.
+    if (auto* run = dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
+        return {0, _resources->batches.recordBaseOf(*run).value_or(0)};
+    return {0, GLint(_resources->objects.indexOf(0))};
 }
 
 bool LabelPass::diverts(const SurfaceItem& item) const
@@ -369,18 +419,20 @@ void LabelPass::answerPick(osg::State& state)
         return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
-    const unsigned int identifier =
-        _targets->readIdentifier(state, pixel(point->x, _viewport[0], _viewport[2]),
-                                 pixel(point->y, _viewport[1], _viewport[3]));
-    _resources->pick.answer(identifier == LabelTargets::Nothing ? 0 : identifier);
+    const unsigned int index =
+        _targets->readIndex(state, pixel(point->x, _viewport[0], _viewport[2]),
+                            pixel(point->y, _viewport[1], _viewport[3]));
+    _resources->pick.answer(
+        index == LabelTargets::Nothing ? 0 : _resources->objects.getIdentifier(index));
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)
 {
     osg::State& state = *renderInfo.getState();
     const int samples = _target.samples;
-    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
-        *_resources->programs.getComposite(_languageVersion, samples, _isPaged, _target.hasDepth));
+    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(*_resources->programs.getComposite(
+        _languageVersion, samples, _isPaged, _resources->settings.texCoord >= 0, _target.hasDepth));
+    _targets->setFrames(state, _frames.data(), _frames.size() * sizeof(Frame));
     pass->merge(*_targets->getStateSet());
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));

@@ -10,6 +10,7 @@
 #include <osg/Matrixd>
 
 #include <array>
+#include <map>
 #include <unordered_map>
 
 namespace osgLabels
@@ -54,16 +55,34 @@ public:
     void fillPlan(osgMultiRender::Plan& plan) const override;
 
 private:
-    /// osgLabels_frame of target.frag.
-    using Frame = std::array<float, 30>;
+    /// The number of a leaf whose drawable has the indices of its objects.
+    static constexpr std::uint32_t SaysItself = ~0u;
+
+    /// osgLabels_Frame of locate.glsl, and one float more to fill seven texels.
+    using Frame = std::array<float, 28>;
+    /// Of an object's record: what the vertex attribute has, and what is added.
+    struct Index
+    {
+        GLint object, base;
+    };
     struct Applied
     {
         const osg::RefMatrix* modelview = nullptr;
         const osg::RefMatrix* projection = nullptr;
+        GLint recordBase = 0;
         bool isSet = false;
     };
 
+    void addTexCoords(const osgMultiRender::SurfaceKey& key,
+                      osgMultiRender::SurfaceSnippet& snippet) const;
+    static void addIndex(const osgMultiRender::SurfaceKey& key,
+                         osgMultiRender::SurfaceSnippet& snippet);
+    static void addLabel(const osgMultiRender::SurfaceKey& key,
+                         osgMultiRender::SurfaceSnippet& snippet);
+    Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const;
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
+    /// Of the leaf's frame among those of this view; negative where rays are parallel.
+    int numberOf(const osgUtil::RenderLeaf& leaf);
     void clear(osg::State& state) const;
     std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
     void answerPick(osg::State& state);
@@ -81,6 +100,8 @@ private:
     /// Labelled objects in view: their numbers.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
     unsigned int _direct = 0, _passes = 0;
+    std::vector<Frame> _frames;
+    std::map<std::pair<const osg::RefMatrix*, const osg::RefMatrix*>, int> _frameNumbers;
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

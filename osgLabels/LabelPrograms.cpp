@@ -2,6 +2,7 @@
 #include <osgLabels/LabelPrograms.h>
 
 #include <osgLabels/LabelTargets.h>
+#include <osgLabels/LabelUnits.h>
 #include <osgLabels/Placement.h>
 #include <osgLabels/Shaders.h>
 
@@ -38,15 +39,20 @@ std::string tableText(bool isPaged)
 
 } // namespace
 
-std::string LabelSources::locate(bool isPaged, bool hasPagedRecords)
+std::string LabelSources::locate(bool isPaged)
 {
-    const char* records =
-        hasPagedRecords ? "#define OSGLABELS_RECORDS osgLabels_Buffer\n"
-                          "#define OSGLABELS_RECORD(i) osgLabels_texel(osgLabels_records, i)\n"
-                        : "#define OSGLABELS_RECORDS usamplerBuffer\n"
-                          "#define OSGLABELS_RECORD(i) texelFetch(osgLabels_records, int(i))\n";
-    return tableText(isPaged) + placementSource() + records +
-           fragmentText("target.frag", shaders::target_frag);
+    return tableText(isPaged) + placementSource() +
+           fragmentText("locate.glsl", shaders::locate_glsl);
+}
+
+std::string LabelSources::surface()
+{
+    return fragmentText("target.frag", shaders::target_frag);
+}
+
+std::string LabelSources::direct()
+{
+    return fragmentText("direct.frag", shaders::direct_frag);
 }
 
 std::string LabelSources::ink()
@@ -55,11 +61,11 @@ std::string LabelSources::ink()
 }
 
 const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples, bool isPaged,
-                                                 bool hasDepth)
+                                                 bool isTextured, bool hasDepth)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     osg::ref_ptr<osg::StateSet>& stateSet =
-        _composites[{int(languageVersion * 100.0f), samples, isPaged, hasDepth}];
+        _composites[{int(languageVersion * 100.0f), samples, isPaged, isTextured, hasDepth}];
     if (stateSet)
         return stateSet.get();
     constexpr auto on = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
@@ -72,7 +78,8 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
                                                               shaders::screen_vert)));
     program->addShader(new osg::Shader(
         osg::Shader::FRAGMENT, version + "#define OSGLABELS_SAMPLES " + std::to_string(samples) +
-                                   "\n" + tableText(isPaged) + LabelSources::ink() +
+                                   "\n" + (isTextured ? "#define OSGLABELS_TEXTURED\n" : "") +
+                                   LabelSources::locate(isPaged) + LabelSources::ink() +
                                    fragmentText("composite.frag", shaders::composite_frag)));
     program->setThreadSafeRefUnref(true);
     stateSet = new osg::StateSet;
@@ -87,9 +94,10 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
     const std::pair<const char*, int> samplers[] = {
         {"osgLabels_color", LabelTargets::ColorUnit},
         {"osgLabels_depths", LabelTargets::DepthUnit},
-        {"osgLabels_identifiers", LabelTargets::IdentifierUnit},
-        {"osgLabels_places", LabelTargets::PlaceUnit},
-        {"osgLabels_footprints", LabelTargets::FootprintUnit}};
+        {"osgLabels_surfaces", LabelTargets::SurfaceUnit},
+        {"osgLabels_texCoords", LabelTargets::TexCoordUnit},
+        {"osgLabels_changes", LabelTargets::ChangeUnit},
+        {"osgLabels_frames", FramesUnit}};
     for (const auto& [name, unit] : samplers)
         stateSet->addUniform(new osg::Uniform(name, unit));
     return stateSet.get();

@@ -15,10 +15,13 @@ namespace osgLabels
 /// GLSL of the label kit, by what it depends on.
 struct LabelSources
 {
-    /// Declares osgLabels_locate(): identifier and place of the fragment.
-    /// Needs an int osgLabels_index. `isPaged`: buffers are 2D arrays; `hasPagedRecords`: those of
-    /// the object records, too, where the others are.
-    static std::string locate(bool isPaged, bool hasPagedRecords);
+    /// Declares osgLabels_writeSurface(): the first pass.
+    static std::string surface();
+    /// Declares osgLabels_locate(): where on its label a pixel lies. `isPaged`: buffers are 2D
+    /// arrays.
+    static std::string locate(bool isPaged);
+    /// Declares osgLabels_direct(): the colour of a surface that is drawn in the view.
+    static std::string direct();
     /// Declares osgLabels_over(): the colour of a surface with its label.
     static std::string ink();
 };
@@ -27,15 +30,15 @@ struct LabelSources
 class LabelPrograms
 {
 public:
-    /// Program and state of the pass, with OVERRIDE, for targets of so many samples.
-    /// `hasDepth`: the view has a depth buffer to test with.
+    /// Program and state of the pass, with OVERRIDE, for targets of so many samples; `isTextured`:
+    /// with texture coordinates. `hasDepth`: the view has a depth buffer to test with.
     const osg::StateSet* getComposite(float languageVersion, int samples, bool isPaged,
-                                      bool hasDepth);
+                                      bool isTextured, bool hasDepth);
 
     void releaseGLObjects(osg::State* state);
 
 private:
-    using Key = std::tuple<int, int, bool, bool>;
+    using Key = std::tuple<int, int, bool, bool, bool>;
     std::mutex _mutex;
     std::map<Key, osg::ref_ptr<osg::StateSet>> _composites;
 };

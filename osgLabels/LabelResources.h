@@ -50,8 +50,8 @@ public:
     const LabelSettings settings;
     const std::shared_ptr<LabelTable> table = std::make_shared<LabelTable>();
     LabelBuffers buffers{table};
-    LabelObjects objects;
     LabelBatches batches;
+    LabelObjects objects{batches};
     std::unique_ptr<LabelCollector> collector; ///< Null where there is an error.
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;

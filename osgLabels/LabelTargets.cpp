@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelTargets.h>
 
+#include <osgLabels/LabelUnits.h>
+
 #include <osg/FrameBufferObject>
+
+#include <algorithm>
 
 namespace osgLabels
 {
@@ -21,9 +25,11 @@ LabelTargets::LabelTargets(unsigned int contextID, const LabelLayout& layout)
     };
     _color = make(layout.like.colorFormat, ColorUnit);
     _depth = make(layout.like.depthFormat, DepthUnit);
-    _identifier = make(GL_R32UI, IdentifierUnit);
-    _place = make(GL_RG32F, PlaceUnit);
-    _footprint = make(GL_RGBA16F_ARB, FootprintUnit);
+    _surface = make(GL_RGBA32UI_EXT, SurfaceUnit);
+    if (!layout.textured)
+        return;
+    _texCoord = make(GL_RG32F, TexCoordUnit);
+    _change = make(GL_RGBA16F_ARB, ChangeUnit);
 }
 
 LabelTargets::~LabelTargets() = default;
@@ -32,21 +38,34 @@ std::size_t LabelTargets::getBytes() const
 {
     std::size_t bytes = 0;
     for (const TargetTexture* texture :
-         {_color.get(), _depth.get(), _identifier.get(), _place.get(), _footprint.get()})
-        bytes += texture->getBytes();
+         {_color.get(), _depth.get(), _surface.get(), _texCoord.get(), _change.get()})
+        bytes += !texture ? 0 : texture->getBytes();
     return bytes;
 }
 
 void LabelTargets::bind(osg::State& state)
 {
-    _drawing.bind(state, 4);
+    _drawing.bind(state, _layout.textured ? 4 : 2);
     _depth->attach(state, GL_DEPTH_ATTACHMENT_EXT, 0);
     GLenum attachment = GL_COLOR_ATTACHMENT0_EXT;
-    for (TargetTexture* texture : {_color.get(), _identifier.get(), _place.get(), _footprint.get()})
-        texture->attach(state, attachment++, 0);
+    for (TargetTexture* texture : {_color.get(), _surface.get(), _texCoord.get(), _change.get()})
+        if (texture)
+            texture->attach(state, attachment++, 0);
 }
 
-unsigned int LabelTargets::readIdentifier(osg::State& state, int x, int y)
+void LabelTargets::setFrames(osg::State& state, const void* data, std::size_t bytes)
+{
+    if (!_frames)
+    {
+        _frames = new BufferTexture(state.getContextID(), 4, BufferTexture::needsPages(state));
+        _stateSet->setTextureAttribute(FramesUnit, _frames, osg::StateAttribute::OVERRIDE);
+    }
+    _frames->resize(state, std::max<std::size_t>(bytes, 16));
+    if (bytes)
+        _frames->write(state, 0, data, bytes);
+}
+
+unsigned int LabelTargets::readIndex(osg::State& state, int x, int y)
 {
     if (x < 0 || y < 0 || x >= _layout.width || y >= _layout.height)
         return Nothing;
@@ -56,7 +75,7 @@ unsigned int LabelTargets::readIdentifier(osg::State& state, int x, int y)
     if (_layout.like.samples > 1) // blitting integers takes one of the samples
     {
         if (!_picked)
-            _picked = new TargetTexture(GL_R32UI, _layout.width, _layout.height, 0, 1);
+            _picked = new TargetTexture(GL_RGBA32UI_EXT, _layout.width, _layout.height, 0, 1);
         _single.bind(state, 1);
         _picked->attach(state, GL_COLOR_ATTACHMENT0_EXT, 0);
         GLint single = 0;
@@ -69,19 +88,21 @@ unsigned int LabelTargets::readIdentifier(osg::State& state, int x, int y)
         gl->glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, GLuint(single));
         glReadBuffer(GL_COLOR_ATTACHMENT0_EXT);
     }
-    unsigned int identifier = Nothing;
-    glReadPixels(x, y, 1, 1, GL_RED_INTEGER_EXT, GL_UNSIGNED_INT, &identifier);
-    return identifier;
+    GLuint surface[4] = {Nothing, 0, 0, 0};
+    glReadPixels(x, y, 1, 1, GL_RGBA_INTEGER_EXT, GL_UNSIGNED_INT, surface);
+    return surface[0];
 }
 
 void LabelTargets::releaseGLObjects(osg::State* state) const
 {
     _drawing.releaseGLObjects(state);
     _single.releaseGLObjects(state);
-    for (const TargetTexture* texture : {_color.get(), _depth.get(), _identifier.get(),
-                                         _place.get(), _footprint.get(), _picked.get()})
+    for (const TargetTexture* texture : {_color.get(), _depth.get(), _surface.get(),
+                                         _texCoord.get(), _change.get(), _picked.get()})
         if (texture)
             texture->releaseGLObjects(state);
+    if (_frames)
+        _frames->releaseGLObjects(state);
 }
 
 } // namespace osgLabels

@@ -13,7 +13,8 @@ enum LabelUnits
     RecordsUnit = 6, ///< Object records.
     GlyphsUnit = 7,  ///< And the next one.
     StylesUnit = 10,
-    ColorsUnit = 16 ///< Of a PrimitiveBatch; read by vertex shaders only.
+    FramesUnit = 11, ///< Second pass only, as are those of LabelTargets.
+    ColorsUnit = 16  ///< Of a PrimitiveBatch; read by vertex shaders only.
 };
 
 } // namespace osgLabels

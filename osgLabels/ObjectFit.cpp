@@ -1,84 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/ObjectFit.h>
 
-#include <osg/TriangleIndexFunctor>
-
-#include <glm/geometric.hpp>
+#include <osgLabels/TexCoordFit.h>
 
 #include <cmath>
-#include <optional>
 
 namespace osgLabels
 {
 
 namespace
 {
-
-/// Lengths on the surface against lengths in texture coordinates.
-class TextureScale
-{
-public:
-    const osg::Vec3Array* vertices = nullptr;
-    const osg::Vec2Array* coordinates = nullptr;
-
-    void operator()(unsigned int a, unsigned int b, unsigned int c)
-    {
-        const std::size_t size = std::min(vertices->size(), coordinates->size());
-        if (a >= size || b >= size || c >= size)
-            return;
-        const osg::Vec2d s = toDouble((*coordinates)[b] - (*coordinates)[a]);
-        const osg::Vec2d t = toDouble((*coordinates)[c] - (*coordinates)[a]);
-        const double area = s.x() * t.y() - s.y() * t.x();
-        if (area == 0.0 || !std::isfinite(area))
-            return;
-        const osg::Vec3d p = (*vertices)[b] - (*vertices)[a], q = (*vertices)[c] - (*vertices)[a];
-        const osg::Vec3d alongU = (p * t.y() - q * s.y()) / area;
-        const osg::Vec3d alongV = (q * s.x() - p * t.x()) / area;
-        _sum += osg::Vec2d(alongU.length(), alongV.length()) * std::abs(area);
-        _area += std::abs(area);
-    }
-
-    /// None where the coordinates span nothing.
-    std::optional<osg::Vec2d> get() const
-    {
-        const osg::Vec2d scale = _sum / _area;
-        if (!(_area > 0.0) || !std::isfinite(scale.length2()))
-            return std::nullopt;
-        return scale;
-    }
-
-private:
-    static osg::Vec2d toDouble(const osg::Vec2& v) { return {v.x(), v.y()}; }
-
-    osg::Vec2d _sum;
-    double _area = 0.0;
-};
-
-std::optional<ObjectRecord> texturedRecord(const osg::Geometry& geometry, int unit,
-                                           std::uint32_t identifier)
-{
-    osg::TriangleIndexFunctor<TextureScale> scale;
-    scale.vertices = dynamic_cast<const osg::Vec3Array*>(geometry.getVertexArray());
-    scale.coordinates = dynamic_cast<const osg::Vec2Array*>(geometry.getTexCoordArray(unit));
-    if (!scale.vertices || !scale.coordinates || scale.coordinates->empty())
-        return std::nullopt;
-    geometry.accept(scale);
-    const std::optional<osg::Vec2d> unitLengths = scale.get();
-    if (!unitLengths)
-        return std::nullopt;
-    osg::BoundingBoxd box;
-    for (const osg::Vec2& uv : *scale.coordinates)
-        if (std::isfinite(uv.length2()))
-            box.expandBy(uv.x(), uv.y(), 0.0);
-    ObjectRecord record;
-    record.rotation = glm::quat(0.0f, float(unitLengths->x()), float(unitLengths->y()), 0.0f);
-    record.origin = {float(box.center().x()), float(box.center().y()), 0.0f};
-    record.size = {float(0.5 * (box.xMax() - box.xMin()) * unitLengths->x()),
-                   float(0.5 * (box.yMax() - box.yMin()) * unitLengths->y()), 0.0f};
-    record.shape = std::uint32_t(Shape::TexCoord);
-    record.identifier = identifier;
-    return record;
-}
 
 /// The factor of a matrix that only moves, turns and scales evenly; 0 for others.
 double similarityOf(const osg::Matrixd& m)
@@ -113,8 +44,11 @@ FittedShape moved(FittedShape fit, const osg::Matrixd& matrix, double factor)
 ObjectRecord recordOf(const osg::Drawable& drawable, int texCoord, std::uint32_t identifier)
 {
     if (const osg::Geometry* geometry = texCoord < 0 ? nullptr : drawable.asGeometry())
-        if (const auto record = texturedRecord(*geometry, texCoord, identifier))
-            return *record;
+    {
+        const FittedShape fit = fitTexCoords(*geometry, unsigned(texCoord));
+        if (fit.shape != Shape::None)
+            return fit.record(identifier);
+    }
     return fitDrawable(drawable).record(identifier);
 }
 

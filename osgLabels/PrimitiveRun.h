@@ -35,6 +35,8 @@ public:
     unsigned int getNumObjects() const { return _count; }
     /// The number of the first object in the batch; the others follow.
     unsigned int getFirstObject() const { return _firstObject; }
+    /// Where its first record lies in its page.
+    unsigned int getFirstRecord() const { return _first; }
     /// The object in the batch whose triangle has this index, as intersections say it.
     unsigned int getObject(unsigned int primitiveIndex) const;
     /// Triangles of each object, as visitors see them.

@@ -28,6 +28,8 @@ std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
         return {GL_DEPTH_COMPONENT, GL_FLOAT};
     case GL_R32UI:
         return {GL_RED_INTEGER_EXT, GL_UNSIGNED_INT};
+    case GL_RGBA32UI_EXT:
+        return {GL_RGBA_INTEGER_EXT, GL_UNSIGNED_INT};
     case GL_RG32F:
         return {GL_RG, GL_FLOAT};
     case GL_RGBA8:
@@ -50,6 +52,7 @@ int bytesOf(GLint internalFormat)
     case GL_RGBA16F_ARB:
         return 8;
     case GL_RGBA32F_ARB:
+    case GL_RGBA32UI_EXT:
         return 16;
     default:
         return 4;

@@ -1,36 +1,71 @@
-// The second pass: puts the labelled picture into the view. OSGLABELS_SAMPLES: of the targets.
+// The second pass: finds each pixel's place on its label, and puts the labelled picture into the view.
+// OSGLABELS_SAMPLES: of the targets.
 
 #if OSGLABELS_SAMPLES > 1
-uniform sampler2DMS osgLabels_color, osgLabels_depths, osgLabels_places, osgLabels_footprints;
-uniform usampler2DMS osgLabels_identifiers;
+#define osgLabels_Target2D sampler2DMS
+uniform usampler2DMS osgLabels_surfaces;
 uniform int osgLabels_sample;
 #else
-uniform sampler2D osgLabels_color, osgLabels_depths, osgLabels_places, osgLabels_footprints;
-uniform usampler2D osgLabels_identifiers;
+#define osgLabels_Target2D sampler2D
+uniform usampler2D osgLabels_surfaces;
 const int osgLabels_sample = 0;
 #endif
-uniform int osgLabels_flippedHeight; // where rows count from the top, else 0
+uniform osgLabels_Target2D osgLabels_color, osgLabels_depths;
+#ifdef OSGLABELS_TEXTURED
+uniform osgLabels_Target2D osgLabels_texCoords, osgLabels_changes;
+#endif
+uniform osgLabels_Buffer osgLabels_frames; // seven texels each
+uniform int osgLabels_flippedHeight;    // where rows count from the top, else 0
 
 layout(location = 0) out vec4 osgmr_out0;
+
+osgLabels_Frame osgLabels_frameOf(int number)
+{
+    vec4 t[7];
+    uint at = 7u * uint(number < 0 ? -1 - number : number);
+    for (uint i = 0u; i < 7u; ++i)
+        t[i] = uintBitsToFloat(osgLabels_texel(osgLabels_frames, at + i));
+    return osgLabels_Frame(t[0].xyz, vec3(t[0].w, t[1].xy), vec3(t[1].zw, t[2].x), t[2].yzw,
+                           t[3].xyz, vec3(t[3].w, t[4].xy), vec3(t[4].zw, t[5].x), t[5].yzw,
+                           t[6].xyz);
+}
+
+osgLabels_Place osgLabels_placeOf(osgLabels_Object object, uvec4 surface, ivec2 p, float width)
+{
+#ifdef OSGLABELS_TEXTURED
+    if ((object.shape & 0xffu) == 10u)
+        return osgLabels_locateTextured(
+            object, texelFetch(osgLabels_texCoords, p, osgLabels_sample).xy,
+            texelFetch(osgLabels_changes, p, osgLabels_sample), width);
+#endif
+    osgLabels_Surface at;
+    at.parallel = int(surface.y) < 0;
+    at.distance = uintBitsToFloat(surface.z);
+    at.dx = uintBitsToFloat(surface.w << 16);
+    at.dy = uintBitsToFloat(surface.w & 0xffff0000u);
+    return osgLabels_locate(object, osgLabels_frameOf(int(surface.y)), at, width);
+}
 
 void main()
 {
     ivec2 p = ivec2(gl_FragCoord.xy);
     if (osgLabels_flippedHeight > 0)
         p.y = osgLabels_flippedHeight - 1 - p.y;
-    uint id = texelFetch(osgLabels_identifiers, p, osgLabels_sample).r;
-    if (id == 0xffffffffu) // nothing is drawn here
+    uvec4 surface = texelFetch(osgLabels_surfaces, p, osgLabels_sample);
+    if (surface.x == 0xffffffffu) // nothing is drawn here
         discard;
     gl_FragDepth = texelFetch(osgLabels_depths, p, osgLabels_sample).r;
     vec4 color = texelFetch(osgLabels_color, p, osgLabels_sample);
-    if (id != 0u)
+    if (surface.x != 0u)
     {
-        vec2 place = texelFetch(osgLabels_places, p, osgLabels_sample).rg;
-        if (place.x >= 0.0)
+        osgLabels_Object object = osgLabels_objectOf(surface.x);
+        osgLabels_Text text = osgLabels_textOf(object.id);
+        if (text.length > 0)
         {
-            vec4 footprint = texelFetch(osgLabels_footprints, p, osgLabels_sample);
-            color = osgLabels_over(color, osgLabels_textOf(id), place,
-                                   mat2(footprint.xy, footprint.zw), osgLabels_styleOf(id));
+            osgLabels_Place at = osgLabels_placeOf(object, surface, p, osgLabels_width(text));
+            if (at.inside)
+                color = osgLabels_over(color, text, at.place, at.footprint,
+                                       osgLabels_styleOf(object.id));
         }
     }
     osgmr_out0 = color;

@@ -6,6 +6,7 @@
 layout(location = 6) in int osgLabels_object; // the first object of a draw
 #endif
 uniform usamplerBuffer osgLabels_records; // three texels an object, see ObjectRecord.h
+uniform int osgLabels_recordBase; // where the page begins in a buffer of several
 uniform samplerBuffer osgLabels_colors;
 
 vec3 osgLabels_unrotate(vec4 rotation, vec3 v)
@@ -34,9 +35,10 @@ void osgLabels_onFrustum(vec3 size, inout vec3 position, inout vec3 normal)
 void osgmr_instance(inout vec4 vertex, inout vec3 normal, inout vec4 color)
 {
     int object = osgLabels_object + gl_InstanceID;
-    vec4 rotation = uintBitsToFloat(texelFetch(osgLabels_records, 3 * object));
-    uvec4 place = texelFetch(osgLabels_records, 3 * object + 1);
-    vec3 size = uintBitsToFloat(texelFetch(osgLabels_records, 3 * object + 2).xyz);
+    int record = 3 * (object + osgLabels_recordBase);
+    vec4 rotation = uintBitsToFloat(texelFetch(osgLabels_records, record));
+    uvec4 place = texelFetch(osgLabels_records, record + 1);
+    vec3 size = uintBitsToFloat(texelFetch(osgLabels_records, record + 2).xyz);
     vec3 position = vertex.xyz;
     uint shape = place.w & 0xffu;
     if (shape == 7u)

@@ -115,9 +115,10 @@ int main(int argc, char** argv)
     int places = 8;
     arguments.read("--path", places);
     osgLabels::LabelSettings settings;
-    std::string text, error;
-    if (arguments.read("--settings", text) && !parseLabelOptions(settings, text, error))
-        return std::fprintf(stderr, "%s\n", error.c_str()), 2;
+    std::string text;
+    if (arguments.read("--settings", text))
+        for (const std::string& error : parseLabelOptions(settings, text))
+            return std::fprintf(stderr, "%s\n", error.c_str()), 2;
     if (!options.read(arguments))
         return 2;
     FrameTimer timer(options.width, options.height);

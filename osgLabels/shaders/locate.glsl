@@ -1,0 +1,77 @@
+// Where on its label a pixel lies, from gl_FragCoord and the surface's distance: so any vertex stage
+// will do, and what is near the eye is exact, however long the object is.
+
+uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
+uniform vec2 osgLabels_line;     // height of text as a share of the room, least gap in em
+uniform osgLabels_Buffer osgLabels_records;
+
+// Of a matrix from local to clip coordinates, its inverse as the fragment needs it.
+struct osgLabels_Frame
+{
+    vec3 x, y, z;   // what ndc.x w, ndc.y w, and w or ndc.z weigh, in local coordinates
+    vec3 offset;    // what is added; the sum is relative to the eye
+    vec3 eye;
+    vec3 right, up; // of the screen
+    vec3 back;      // to the viewer, where rays are parallel
+    vec3 world;     // the world's up
+};
+
+// What is here: 1 / gl_FragCoord.w, or gl_FragCoord.z where rays are parallel, and its changes.
+struct osgLabels_Surface
+{
+    bool parallel;
+    float distance, dx, dy;
+};
+
+osgLabels_Object osgLabels_objectOf(uint index)
+{
+    uvec4 a = osgLabels_texel(osgLabels_records, 3u * index);
+    uvec4 b = osgLabels_texel(osgLabels_records, 3u * index + 1u);
+    uvec4 c = osgLabels_texel(osgLabels_records, 3u * index + 2u);
+    return osgLabels_Object(uintBitsToFloat(a), uintBitsToFloat(b.xyz), b.w,
+                            uintBitsToFloat(c.xyz), c.w);
+}
+
+// Relative to the eye.
+vec3 osgLabels_pointAt(osgLabels_Frame frame, bool parallel, vec2 ndc, float distance)
+{
+    vec3 clip = parallel ? vec3(ndc, 2.0 * distance - 1.0) : vec3(ndc * distance, distance);
+    return frame.x * clip.x + frame.y * clip.y + frame.z * clip.z + frame.offset;
+}
+
+osgLabels_Place osgLabels_locate(osgLabels_Object object, osgLabels_Frame frame,
+                                 osgLabels_Surface surface, float width)
+{
+    vec2 pixel = osgLabels_viewport.zw;
+    vec2 ndc = (gl_FragCoord.xy - osgLabels_viewport.xy) * pixel - 1.0;
+    bool parallel = surface.parallel;
+    vec3 position = osgLabels_pointAt(frame, parallel, ndc, surface.distance);
+    vec3 dx = osgLabels_pointAt(frame, parallel, ndc + vec2(pixel.x, 0.0),
+                                surface.distance + surface.dx) - position;
+    vec3 dy = osgLabels_pointAt(frame, parallel, ndc + vec2(0.0, pixel.y),
+                                surface.distance + surface.dy) - position;
+    osgLabels_View view;
+    view.base = frame.eye - object.origin;
+    view.eye = parallel ? vec4(frame.back, 0.0) : vec4(view.base, 1.0);
+    view.screenRight = frame.right;
+    view.screenUp = frame.up;
+    view.up = frame.world;
+    view.height = osgLabels_line.x;
+    view.gap = osgLabels_line.y;
+    return osgLabels_placeOn(object, position, dx, dy, view, width);
+}
+
+// A label that follows texture coordinates.
+osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, vec2 at, vec4 change, float width)
+{
+    osgLabels_View view;
+    view.base = vec3(0.0);
+    view.eye = vec4(0.0);
+    view.screenRight = vec3(0.0);
+    view.screenUp = vec3(0.0);
+    view.up = vec3(0.0);
+    view.height = osgLabels_line.x;
+    view.gap = osgLabels_line.y;
+    return osgLabels_placeOn(object, vec3(at - object.origin.xy, 0.0), vec3(change.xy, 0.0),
+                             vec3(change.zw, 0.0), view, width);
+}
