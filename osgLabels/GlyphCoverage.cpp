@@ -216,10 +216,12 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
     const glm::vec2 twice(0.5f * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     const float axis = glm::length(twice);
     const float longest = 0.5f * squares + axis;
-    const bool isLong = squares > 2.2f * area;
+    const bool isLarge = area * LargeFrom * LargeFrom < 1.0f;
+    const bool isLong = squares > (isLarge ? 2.5f : 2.05f) * area;
     const float ratio = isLong ? longest / area : 1.0f;
+    const float thinner = isLong ? std::sqrt(ratio / (2.0f * std::ceil(0.5f * ratio))) : 1.0f;
     const float least = longest / (MostLong * MostLong);
-    const float squared = std::max(area / ratio, isLong ? least : 0.0f);
+    const float squared = std::max(area / ratio * thinner, isLong ? least : 0.0f);
     const float pixels = 1.0f / std::sqrt(squared);
     const bool isQuartered = pixels > LargeFrom && !isLong && pixels < HugeFrom;
     const Slicing slicing(a, b, twice, axis, ratio);

@@ -147,13 +147,16 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     float axis = length(twice);
     float longest = 0.5 * squares + axis; // squared
-    bool isLong = squares > 2.2 * area;
+    // From 1.25 times on; quarters do for large letters up to twice.
+    bool isLarge = area * osgLabels_LargeFrom * osgLabels_LargeFrom < 1.0;
+    bool isLong = squares > (isLarge ? 2.5 : 2.05) * area;
     float ratio = isLong ? longest / area : 1.0;
 
     // A look-up is of a square: of the pixel's area, or as wide as a long pixel is narrow.
-    // Beyond that the square is wider.
+    // An even number of slices makes them thinner than long: half of that goes to their squares.
+    float thinner = isLong ? sqrt(ratio / (2.0 * ceil(0.5 * ratio))) : 1.0;
     float least = longest / (osgLabels_MostLong * osgLabels_MostLong);
-    float squared = max(area / ratio, isLong ? least : 0.0);
+    float squared = max(area / ratio * thinner, isLong ? least : 0.0);
     float pixels = inversesqrt(squared); // an em
     bool isDistance = pixels > osgLabels_LargeFrom;
     bool isQuartered = isDistance && !isLong && pixels < osgLabels_HugeFrom;
