@@ -176,14 +176,13 @@ float GlyphCoverage::getLetterInk(const std::vector<std::uint32_t>& codes, const
     return glm::clamp(value * sampling.gain.x + sampling.gain.y, 0.0f, 1.0f);
 }
 
-GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, const glm::vec2& doubled,
-                                                   bool isQuartered) const
+GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, const glm::vec2& doubled) const
 {
     const float pixels = 1.0f / std::sqrt(squared);
     const float level = glm::clamp(-std::log2(squared) - 2.0f, 0.0f, 6.999f);
     const float finer = level - std::floor(level);
     const float turn = doubled.y * doubled.y / std::max(glm::dot(doubled, doubled), 1e-36f);
-    const float gain = (isQuartered ? 2.0f : 1.0f) * GlyphImages::DistanceSpread * pixels;
+    const float gain = GlyphImages::DistanceSpread * pixels;
     if (pixels > LargeFrom)
         return {&_images.getDistance(),
                 _images.getDistanceMargin(),
@@ -216,18 +215,20 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
     const glm::vec2 twice(0.5f * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     const float axis = glm::length(twice);
     const float longest = 0.5f * squares + axis;
-    const bool isLarge = area * LargeFrom * LargeFrom < 1.0f;
-    const bool isLong = squares > (isLarge ? 2.5f : 2.05f) * area;
+    const bool isLong = squares > 2.65f * area;
+    const bool isLarge = area * LargeFrom * LargeFrom < 1.0f,
+               isHuge = area * HugeFrom * HugeFrom < 1.0f;
+    const bool isQuartered = !isLong && (squares > 2.05f * area || (isLarge && !isHuge));
     const float ratio = isLong ? longest / area : 1.0f;
     const float thinner = isLong ? std::sqrt(ratio / (2.0f * std::ceil(0.5f * ratio))) : 1.0f;
     const float least = longest / (MostLong * MostLong);
-    const float squared = std::max(area / ratio * thinner, isLong ? least : 0.0f);
-    const float pixels = 1.0f / std::sqrt(squared);
-    const bool isQuartered = pixels > LargeFrom && !isLong && pixels < HugeFrom;
+    const float squared = isLong        ? std::max(area / ratio * thinner, least)
+                          : isQuartered ? 0.25f * area
+                                        : area;
     const Slicing slicing(a, b, twice, axis, ratio);
     const float count = isLong ? slicing.getCount() : isQuartered ? 4.0f : 1.0f;
     const glm::vec2 doubled = isLong ? twice : glm::vec2(a.x * a.x - a.y * a.y, 2.0f * a.x * a.y);
-    Sampling sampling = getSampling(squared, doubled, isQuartered);
+    Sampling sampling = getSampling(squared, doubled);
     sampling.which = which;
 
     float ink = 0.0f, weight = 0.0f;

@@ -147,19 +147,20 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     float axis = length(twice);
     float longest = 0.5 * squares + axis; // squared
-    // From 1.25 times on; quarters do for large letters up to twice.
-    bool isLarge = area * osgLabels_LargeFrom * osgLabels_LargeFrom < 1.0;
-    bool isLong = squares > (isLarge ? 2.5 : 2.05) * area;
+    // Quarters: of large letters, and of a pixel that is 1.25 to 2.2 times longer than wide.
+    bool isLong = squares > 2.65 * area;
+    vec2 sizes = area * vec2(osgLabels_LargeFrom * osgLabels_LargeFrom,
+                             osgLabels_HugeFrom * osgLabels_HugeFrom);
+    bool isQuartered = !isLong && (squares > 2.05 * area || (sizes.x < 1.0 && sizes.y > 1.0));
     float ratio = isLong ? longest / area : 1.0;
 
     // A look-up is of a square: of the pixel's area, or as wide as a long pixel is narrow.
     // An even number of slices makes them thinner than long: half of that goes to their squares.
     float thinner = isLong ? sqrt(ratio / (2.0 * ceil(0.5 * ratio))) : 1.0;
     float least = longest / (osgLabels_MostLong * osgLabels_MostLong);
-    float squared = max(area / ratio * thinner, isLong ? least : 0.0);
+    float squared = isLong ? max(area / ratio * thinner, least) : isQuartered ? 0.25 * area : area;
     float pixels = inversesqrt(squared); // an em
     bool isDistance = pixels > osgLabels_LargeFrom;
-    bool isQuartered = isDistance && !isLong && pixels < osgLabels_HugeFrom;
     float level = clamp(-log2(squared) - 2.0, 0.0, 6.999);
     float finer = fract(level);
     vec2 doubled = isLong ? twice : vec2(a.x * a.x - a.y * a.y, 2.0 * a.x * a.y);
@@ -170,7 +171,7 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     sampling.distances = isDistance ? 1.0 : 0.0;
     sampling.mixing = vec4(1.0 - turn, turn, 1.0 - turn, turn) *
                       vec4(vec2(1.0 - finer), vec2(finer)) * (1.0 - sampling.distances);
-    float gain = (isQuartered ? 2.0 : 1.0) * osgLabels_Spread * pixels;
+    float gain = osgLabels_Spread * pixels;
     sampling.gain = isDistance ? vec2(2.0 * gain, 0.5 - gain) : vec2(1.0, 0.0);
 
     // Slices lie across the axis, each a square in the middle of what it cuts of the footprint.
