@@ -15,14 +15,14 @@ namespace
 {
 
 // The constants of coverage.glsl.
-constexpr float LargeFrom = 20.0f, HugeFrom = 44.0f, Slices = 2.5f, MostSlices = 32.0f;
+constexpr float LargeFrom = 20.0f, HugeFrom = 44.0f, MostLong = 12.0f, MostSlices = 32.0f;
 
 /// A footprint cut across its long axis.
 class Slicing
 {
 public:
-    Slicing(glm::vec2 a, glm::vec2 b, const glm::vec2& twice, float axis, float count)
-        : _a(a), _b(b), _count(count)
+    Slicing(const glm::vec2& a, const glm::vec2& b, const glm::vec2& twice, float axis, float ratio)
+        : _a(a), _b(b)
     {
         const glm::vec2 direction = twice.x > 0.0f ? glm::vec2(axis + twice.x, twice.y)
                                                    : glm::vec2(twice.y, axis - twice.x);
@@ -35,7 +35,12 @@ public:
             std::swap(_a, _b);
             std::swap(_run.x, _run.y);
         }
+        const float slices =
+            std::min(ratio, MostLong) * (1.0f + 1.9f * _run.y / std::max(_run.x, 1e-25f));
+        _count = std::min(2.0f * std::ceil(0.5f * slices), MostSlices);
     }
+
+    float getCount() const { return _count; }
 
     /// The slice's middle from that of the footprint, and its width.
     glm::vec3 get(float i) const
@@ -50,7 +55,7 @@ public:
 
 private:
     glm::vec2 _a, _b, _run;
-    float _count;
+    float _count = 1.0f;
 };
 
 } // namespace
@@ -171,14 +176,13 @@ float GlyphCoverage::getLetterInk(const std::vector<std::uint32_t>& codes, const
     return glm::clamp(value * sampling.gain.x + sampling.gain.y, 0.0f, 1.0f);
 }
 
-GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, const glm::vec2& doubled,
-                                                   bool isQuartered) const
+GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, const glm::vec2& doubled) const
 {
     const float pixels = 1.0f / std::sqrt(squared);
     const float level = glm::clamp(-std::log2(squared) - 2.0f, 0.0f, 6.999f);
     const float finer = level - std::floor(level);
     const float turn = doubled.y * doubled.y / std::max(glm::dot(doubled, doubled), 1e-36f);
-    const float gain = (isQuartered ? 2.0f : 1.0f) * GlyphImages::DistanceSpread * pixels;
+    const float gain = GlyphImages::DistanceSpread * pixels;
     if (pixels > LargeFrom)
         return {&_images.getDistance(),
                 _images.getDistanceMargin(),
@@ -211,20 +215,22 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
     const glm::vec2 twice(0.5f * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     const float axis = glm::length(twice);
     const float longest = 0.5f * squares + axis;
-    const bool isLong = squares > 2.2f * area;
+    const bool isLong = squares > 2.65f * area;
+    const bool isLarge = area * LargeFrom * LargeFrom < 1.0f,
+               isHuge = area * HugeFrom * HugeFrom < 1.0f;
+    const bool isQuartered = !isLong && (squares > 2.05f * area || (isLarge && !isHuge));
     const float ratio = isLong ? longest / area : 1.0f;
-    constexpr float Least = Slices / MostSlices;
-    const float squared = std::max(area / ratio, isLong ? longest * Least * Least : 0.0f);
-    const float pixels = 1.0f / std::sqrt(squared);
-    const bool isQuartered = pixels > LargeFrom && !isLong && pixels < HugeFrom;
-    const float count = isLong        ? std::min(std::ceil(Slices * ratio), MostSlices)
-                        : isQuartered ? 4.0f
-                                      : 1.0f;
+    const float thinner = isLong ? std::sqrt(ratio / (2.0f * std::ceil(0.5f * ratio))) : 1.0f;
+    const float least = longest / (MostLong * MostLong);
+    const float squared = isLong        ? std::max(area / ratio * thinner, least)
+                          : isQuartered ? 0.25f * area
+                                        : area;
+    const Slicing slicing(a, b, twice, axis, ratio);
+    const float count = isLong ? slicing.getCount() : isQuartered ? 4.0f : 1.0f;
     const glm::vec2 doubled = isLong ? twice : glm::vec2(a.x * a.x - a.y * a.y, 2.0f * a.x * a.y);
-    Sampling sampling = getSampling(squared, doubled, isQuartered);
+    Sampling sampling = getSampling(squared, doubled);
     sampling.which = which;
 
-    const Slicing slicing(a, b, twice, axis, count);
     float ink = 0.0f, weight = 0.0f;
     for (float i = 0.0f; i < count; i += 1.0f)
     {

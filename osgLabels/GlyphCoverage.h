@@ -40,7 +40,7 @@ private:
     float getLetterInk(const std::vector<std::uint32_t>& codes, const Cell& cell, glm::vec2 place,
                        const Sampling& sampling) const;
     glm::vec4 read(std::size_t image, const glm::vec2& texel) const;
-    Sampling getSampling(float squared, const glm::vec2& doubled, bool isQuartered) const;
+    Sampling getSampling(float squared, const glm::vec2& doubled) const;
 
     const std::shared_ptr<const GlyphSet> _glyphs;
     const GlyphImages _images;

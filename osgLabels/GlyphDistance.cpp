@@ -14,6 +14,14 @@ namespace osgLabels
 namespace
 {
 
+/// Calls visit(a, b) for pieces of the side that are short enough to be border as a whole or not.
+template <typename Visit> void forPieces(const glm::vec2& a, const glm::vec2& b, const Visit& visit)
+{
+    const float pieces = std::ceil(64.0f * glm::distance(a, b));
+    for (float i = 0.0f; i < pieces; i += 1.0f)
+        visit(glm::mix(a, b, i / pieces), glm::mix(a, b, (i + 1.0f) / pieces));
+}
+
 /// Calls visit(a, b) for each side of the outline that has length.
 template <typename Visit> void forSides(const GlyphOutline& outline, const Visit& visit)
 {
@@ -63,22 +71,22 @@ void GlyphImages::drawDistances(const GlyphOutline& outline,
     std::vector<float> distances(static_cast<std::size_t>(size.x * size.y), DistanceSpread);
     const auto getPlace = [&](int x, int y)
     { return (glm::vec2(x, y) + 0.5f - border) / _distance.scale; };
-    forSides(outline,
-             [&](const glm::vec2& a, const glm::vec2& b)
-             {
-                 if (!isBorder(ink, a, b))
-                     return;
-                 const glm::vec2 low = glm::min(a, b) - DistanceSpread,
-                                 high = glm::max(a, b) + DistanceSpread;
-                 const glm::ivec2 from(glm::max(low * _distance.scale + border, 0.0f)),
-                     to = glm::min(glm::ivec2(high * _distance.scale + border), size - 1);
-                 for (int y = from.y; y <= to.y; ++y)
-                     for (int x = from.x; x <= to.x; ++x)
-                     {
-                         float& distance = distances[static_cast<std::size_t>(y * size.x + x)];
-                         distance = std::min(distance, getDistanceToSide(getPlace(x, y), a, b));
-                     }
-             });
+    const auto drawPiece = [&](const glm::vec2& a, const glm::vec2& b)
+    {
+        if (!isBorder(ink, a, b))
+            return;
+        const glm::vec2 low = glm::min(a, b) - DistanceSpread,
+                        high = glm::max(a, b) + DistanceSpread;
+        const glm::ivec2 from(glm::max(low * _distance.scale + border, 0.0f)),
+            to = glm::min(glm::ivec2(high * _distance.scale + border), size - 1);
+        for (int y = from.y; y <= to.y; ++y)
+            for (int x = from.x; x <= to.x; ++x)
+            {
+                float& distance = distances[static_cast<std::size_t>(y * size.x + x)];
+                distance = std::min(distance, getDistanceToSide(getPlace(x, y), a, b));
+            }
+    };
+    forSides(outline, [&](const glm::vec2& a, const glm::vec2& b) { forPieces(a, b, drawPiece); });
     for (int channel = 0; channel < 4; ++channel)
         for (int y = 0; y < _distance.height; ++y)
             for (int x = 0; x < _distance.width; ++x)

@@ -13,8 +13,8 @@ uniform vec2 osgLabels_legible;      // under x pixels an em ink fades, to y tim
 const float osgLabels_Spread = 4.0 / 128.0; // em that 0 and 1 of a distance stand for
 const float osgLabels_LargeFrom = 20.0;     // pixels an em from where distances are used,
 const float osgLabels_HugeFrom = 44.0;      // and from where one does for a pixel
-const float osgLabels_Slices = 2.5;         // of a square's side, along a long footprint
-const float osgLabels_MostSlices = 32.0;
+const float osgLabels_MostLong = 12.0;      // how much longer than wide a footprint may be
+const float osgLabels_MostSlices = 32.0;    // that it is cut into
 
 // Where a place lies among a text's letters; the index may be out of range.
 struct osgLabels_Cell
@@ -147,18 +147,20 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     float axis = length(twice);
     float longest = 0.5 * squares + axis; // squared
-    bool isLong = squares > 2.2 * area;
+    // Quarters: of large letters, and of a pixel that is 1.25 to 2.2 times longer than wide.
+    bool isLong = squares > 2.65 * area;
+    vec2 sizes = area * vec2(osgLabels_LargeFrom * osgLabels_LargeFrom,
+                             osgLabels_HugeFrom * osgLabels_HugeFrom);
+    bool isQuartered = !isLong && (squares > 2.05 * area || (sizes.x < 1.0 && sizes.y > 1.0));
     float ratio = isLong ? longest / area : 1.0;
 
     // A look-up is of a square: of the pixel's area, or as wide as a long pixel is narrow.
-    const float least = osgLabels_Slices / osgLabels_MostSlices;
-    float squared = max(area / ratio, isLong ? longest * least * least : 0.0);
+    // An even number of slices makes them thinner than long: half of that goes to their squares.
+    float thinner = isLong ? sqrt(ratio / (2.0 * ceil(0.5 * ratio))) : 1.0;
+    float least = longest / (osgLabels_MostLong * osgLabels_MostLong);
+    float squared = isLong ? max(area / ratio * thinner, least) : isQuartered ? 0.25 * area : area;
     float pixels = inversesqrt(squared); // an em
     bool isDistance = pixels > osgLabels_LargeFrom;
-    bool isQuartered = isDistance && !isLong && pixels < osgLabels_HugeFrom;
-    float count = isLong ? min(ceil(osgLabels_Slices * ratio), osgLabels_MostSlices)
-                         : isQuartered ? 4.0 : 2.0;
-
     float level = clamp(-log2(squared) - 2.0, 0.0, 6.999);
     float finer = fract(level);
     vec2 doubled = isLong ? twice : vec2(a.x * a.x - a.y * a.y, 2.0 * a.x * a.y);
@@ -169,7 +171,7 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     sampling.distances = isDistance ? 1.0 : 0.0;
     sampling.mixing = vec4(1.0 - turn, turn, 1.0 - turn, turn) *
                       vec4(vec2(1.0 - finer), vec2(finer)) * (1.0 - sampling.distances);
-    float gain = (isQuartered ? 2.0 : 1.0) * osgLabels_Spread * pixels;
+    float gain = osgLabels_Spread * pixels;
     sampling.gain = isDistance ? vec2(2.0 * gain, 0.5 - gain) : vec2(1.0, 0.0);
 
     // Slices lie across the axis, each a square in the middle of what it cuts of the footprint.
@@ -186,6 +188,11 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     run = vec2(max(run.x, run.y), min(run.x, run.y));
     vec2 inverse = 1.0 / max(run, 1e-25);
 
+    // Of a footprint that is upright on its axis slices may be squares; askew they are thinner.
+    float slices = min(ratio, osgLabels_MostLong) * (1.0 + 1.9 * run.y * inverse.x);
+    float count = isLong ? min(2.0 * ceil(0.5 * slices), osgLabels_MostSlices)
+                         : isQuartered ? 4.0 : 2.0;
+
     // Two look-ups a turn: of two slices or quarters, or of a letter and its nearer neighbour.
     bool isPair = count == 2.0 && !isLong;
     vec2 toAlong = vec2(1.0, 0.5 - 0.5 * count) * (run.x + run.y) / count;
@@ -199,7 +206,7 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
         vec2 t = 0.5 * (low + high), s = (along - t * run.y) * inverse.x, width = high - low;
         t = isLong ? t : isQuartered ? vec2(0.25 * i - 0.25) : vec2(0.0);
         s = isLong ? s : isQuartered ? vec2(-0.25, 0.25) : vec2(0.0);
-        width = isLong ? vec2(width.x, i + 1.0 < count ? width.y : 0.0) : vec2(1.0);
+        width = isLong ? width : vec2(1.0);
         vec2 at = place + s.x * a + t.x * b, next = place + s.y * a + t.y * b;
         cell = osgLabels_cellAt(text, cell, at.x);
         osgLabels_Cell other = osgLabels_cellAt(text, cell, next.x);
