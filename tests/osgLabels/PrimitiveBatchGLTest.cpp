@@ -171,6 +171,29 @@ TEST_F(PrimitiveBatchGLTest, whatFilesHoldLooksTheSame)
     EXPECT_TRUE(SamePicture(actual, picture(batch, cameraAt({})), "primitivesCopied"));
 }
 
+TEST_F(PrimitiveBatchGLTest, releasedObjectsAreMadeAgain)
+{
+    const auto batch = batchOf(rowOfShapes());
+    const auto before = picture(batch, cameraAt({}));
+    for (int i = 0; i < 3; ++i)
+    {
+        batch->releaseGLObjects();
+        EXPECT_TRUE(SamePicture(picture(batch, cameraAt({})), before, "primitivesReleased"));
+    }
+}
+
+TEST_F(PrimitiveBatchGLTest, looksTheSameWithVertexArrayObjects)
+{
+    const auto batch = batchOf(rowOfShapes());
+    const auto before = picture(batch, cameraAt({}));
+    for (const auto& run : batch->getRuns())
+        run->setUseVertexArrayObject(true);
+    const osg::ref_ptr<osg::Group> both = new osg::Group;
+    both->addChild(batch);
+    EXPECT_TRUE(SamePicture(_viewer.render(both, cameraAt({}), Width, Height, 3), before,
+                            "primitivesVertexArrays"));
+}
+
 TEST_F(PrimitiveBatchGLTest, manyPagesAndCellsAreDrawn)
 {
     // More than RecordPage::MaxObjects: two pages; a wall of quads without a gap.
