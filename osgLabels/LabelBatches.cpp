@@ -79,4 +79,14 @@ std::size_t LabelBatches::getCount() const
     return count;
 }
 
+std::size_t LabelBatches::getBytes() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    std::size_t bytes = 0;
+    for (const auto& [first, entry] : _batches)
+        if (osg::ref_ptr<PrimitiveBatch> batch; entry.batch.lock(batch))
+            bytes += batch->getGpuBytes();
+    return bytes;
+}
+
 } // namespace osgLabels

@@ -32,6 +32,8 @@ public:
     };
     Found find(std::uint32_t identifier) const;
     std::size_t getCount() const;
+    /// Of their records and colours on the GPU.
+    std::size_t getBytes() const;
 
 private:
     struct Entry

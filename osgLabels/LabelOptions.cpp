@@ -215,12 +215,21 @@ LabelOption text(const char* name, std::string LabelSettings::*member, const cha
             [=](const LabelSettings& settings) { return settings.*member; }};
 }
 
+/// As parseSettings() takes it for one word.
+std::string quoted(const std::string& value)
+{
+    std::string text = "'";
+    for (const char c : value)
+        text += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
+    return text + "'";
+}
+
 } // namespace
 
 const std::vector<LabelOption>& labelOptions()
 {
     static const std::vector<LabelOption> options = {
-        text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv|file.json>",
+        text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv>|<file.json>",
              "What is written on an object: its nearest name, its description, a user value, or "
              "what a table has for its name"),
         matchOption(),
@@ -275,23 +284,22 @@ std::string formatLabelOptions(const LabelSettings& settings)
         const std::string value = option.format(settings);
         if (value == option.format(defaults))
             continue;
-        const char quote = value.find('\'') == std::string::npos ? '\'' : '"';
-        all += (all.empty() ? "" : ",") + option.name + "=" + quote + value + quote;
+        all += (all.empty() ? "" : ",") + option.name + "=" + quoted(value);
     }
     return all;
 }
 
-bool parseLabelOptions(LabelSettings& settings, const std::string& all, std::string& error)
+std::vector<std::string> parseLabelOptions(LabelSettings& settings, const std::string& text)
 {
     osgMultiRender::Settings parsed;
-    LabelSettings changed = settings;
-    if (!osgMultiRender::parseSettings(all, parsed, error))
-        return false;
+    std::string error;
+    if (!osgMultiRender::parseSettings(text, parsed, error))
+        return {error};
+    std::vector<std::string> errors;
     for (const auto& [name, value] : parsed)
-        if (!setLabelOption(changed, name, value, error))
-            return false;
-    settings = changed;
-    return true;
+        if (!setLabelOption(settings, name, value, error))
+            errors.push_back(error);
+    return errors;
 }
 
 } // namespace osgLabels

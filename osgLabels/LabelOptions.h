@@ -33,9 +33,9 @@ OSGLABELS_EXPORT bool setLabelOption(LabelSettings& settings, const std::string&
 /// All that differ from the defaults: "size=0.3,ink='#ff0000'"; empty for none.
 OSGLABELS_EXPORT std::string formatLabelOptions(const LabelSettings& settings);
 
-/// The reverse; settings that are not said keep their values. Returns false and fills `error`, and
-/// then sets nothing.
-OSGLABELS_EXPORT bool parseLabelOptions(LabelSettings& settings, const std::string& text,
-                                        std::string& error);
+/// The reverse; settings that are not said keep their values. Returns a line for each that is
+/// unknown or wrong, which does not count; where the text as a whole is broken none does.
+OSGLABELS_EXPORT std::vector<std::string> parseLabelOptions(LabelSettings& settings,
+                                                            const std::string& text);
 
 } // namespace osgLabels

@@ -433,12 +433,13 @@ void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
     plan.counts["labels.count"] = double(sizes.labels);
     plan.counts["labels.texts"] = double(sizes.texts);
     plan.counts["labels.bitsPerGlyph"] = sizes.bits;
-    plan.counts["labels.textBytes"] = double(sizes.textBytes);
-    plan.counts["labels.rowBytes"] = double(sizes.rowBytes);
-    plan.counts["labels.styleBytes"] = double(sizes.styleBytes);
-    plan.counts["labels.recordBytes"] = double(_resources->objects.getBytes());
-    plan.counts["labels.glyphBytes"] = double(_resources->getAtlasBytes());
-    plan.counts["labels.targetBytes"] = double(_targets->getBytes());
+    plan.counts["labels.bytes.texts"] = double(sizes.textBytes);
+    plan.counts["labels.bytes.rows"] = double(sizes.rowBytes);
+    plan.counts["labels.bytes.styles"] = double(sizes.styleBytes);
+    plan.counts["labels.bytes.records"] = double(_resources->objects.getBytes());
+    plan.counts["labels.bytes.batches"] = double(_resources->batches.getBytes());
+    plan.counts["labels.bytes.glyphs"] = double(_resources->getAtlasBytes());
+    plan.counts["labels.bytes.targets"] = double(_targets->getBytes());
 }
 
 } // namespace osgLabels

@@ -74,9 +74,8 @@ void LabelScene::setSettings(const LabelSettings& settings)
 void LabelScene::setSettingsText(const std::string& text)
 {
     LabelSettings settings;
-    std::string error;
-    if (!parseLabelOptions(settings, text, error))
-        OSG_WARN << "osgLabels::LabelScene: " << error << "; the defaults count" << std::endl;
+    for (const std::string& error : parseLabelOptions(settings, text))
+        OSG_WARN << "osgLabels::LabelScene: " << error << "; it does not count" << std::endl;
     setSettings(settings);
 }
 

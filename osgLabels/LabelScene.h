@@ -58,7 +58,10 @@ public:
 
     void setSettings(const LabelSettings& settings);
     const LabelSettings& getSettings() const { return _settings; }
-    /// As text, see parseLabelOptions(): all that differ from the defaults.
+    /// As text, "size='0.3',ink='#ff0000'": all that differ from the defaults, of styles the first.
+    /// What is unknown or wrong in it is named in a warning and does not count. Files hold this
+    /// text and isShown(); what setText() has changed they do not hold, since texts come from the
+    /// objects.
     void setSettingsText(const std::string& text);
     std::string getSettingsText() const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/Plan.h>
 
+#include <iomanip>
+#include <iterator>
 #include <sstream>
 
 namespace osgMultiRender
@@ -22,6 +24,27 @@ const char* toString(PlanEntry::Decision decision)
     return "dropped";
 }
 
+namespace
+{
+
+bool isBytes(const std::string& name)
+{
+    return name.find(".bytes") != std::string::npos || name == "textureBytes";
+}
+
+std::string bytesToString(double bytes)
+{
+    static const char* const units[] = {"bytes", "KiB", "MiB", "GiB"};
+    std::size_t unit = 0;
+    for (; bytes >= 1024.0 && unit + 1 < std::size(units); ++unit)
+        bytes /= 1024.0;
+    std::ostringstream text;
+    text << std::setprecision(4) << bytes << " " << units[unit];
+    return text.str();
+}
+
+} // namespace
+
 std::string toString(const Plan& plan)
 {
     std::ostringstream text;
@@ -34,7 +57,13 @@ std::string toString(const Plan& plan)
         text << "\n";
     }
     for (const auto& [name, value] : plan.counts)
-        text << "  " << name << " = " << value << "\n";
+    {
+        text << "  " << name << " = ";
+        if (isBytes(name))
+            text << bytesToString(value) << "\n";
+        else
+            text << value << "\n";
+    }
     return text.str();
 }
 

@@ -73,11 +73,19 @@ bool splitWords(const std::string& text, std::vector<std::string>& words, std::s
     return true;
 }
 
+/// Takes quotes away as a shell does: 'it'"'"'s' is it's.
 std::string unquoted(const std::string& word)
 {
-    if (word.size() >= 2 && (word[0] == '\'' || word[0] == '"') && word.back() == word[0])
-        return word.substr(1, word.size() - 2);
-    return word;
+    std::string text;
+    char quote = 0;
+    for (const char c : word)
+    {
+        if (quote ? c == quote : (c == '\'' || c == '"'))
+            quote = quote ? 0 : c;
+        else
+            text += c;
+    }
+    return text;
 }
 
 } // namespace

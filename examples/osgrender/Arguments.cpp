@@ -177,6 +177,12 @@ Switches renderSwitches(Arguments& a)
                                     parseProbeGrid(v[0], a.probe.grids.emplace_back(), error);
                                     return error;
                                 }};
+    switches["--pick"] = {1, [&a](const Values& v)
+                          {
+                              std::string error;
+                              parsePick(v[0], a.picks.emplace_back(), error);
+                              return error;
+                          }};
     switches["--probe-csv"] = text(a.probe.csv);
     switches["--candela"] = number(a.probe.candela, 1e-12);
     switches["--lux"] = number(a.probe.lux, 1e-12);
@@ -251,6 +257,14 @@ bool parseRender(const std::vector<std::string>& words, Arguments& arguments, st
 {
     if (!parse(words, renderSwitches(arguments), arguments.viewerArguments, error))
         return false;
+    for (const PickPoint& pick : arguments.picks)
+        if (pick.x >= arguments.width || pick.y >= arguments.height)
+        {
+            error = "--pick: " + std::to_string(pick.x) + "," + std::to_string(pick.y) +
+                    " is outside of a picture of " + std::to_string(arguments.width) + "x" +
+                    std::to_string(arguments.height);
+            return false;
+        }
     return checkOutputs(arguments, error);
 }
 

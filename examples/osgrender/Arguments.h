@@ -3,6 +3,7 @@
 
 #include "CameraSetting.h"
 #include "Compare.h"
+#include "Pick.h"
 #include "Probe.h"
 
 #include <map>
@@ -46,12 +47,14 @@ struct Arguments
     std::string reference; ///< Picture to compare the last frame with; empty: none.
     std::string difference;
     Tolerance tolerance;
-    ProbeSetting probe; ///< Illuminance to measure.
+    ProbeSetting probe;           ///< Illuminance to measure.
+    std::vector<PickPoint> picks; ///< Pixels of the last frame whose labels are asked for.
 
     /// Whether anything that is asked for needs a frame to be drawn.
     bool drawsFrames() const
     {
-        return !outputs.empty() || !stats.empty() || listPlan || !reference.empty();
+        return !outputs.empty() || !stats.empty() || listPlan || !reference.empty() ||
+               !picks.empty();
     }
 
     /// Models and osgviewer's own switches, for osgViewer::Viewer and the model readers.

@@ -56,6 +56,11 @@ Results
   --difference FILE    write the difference picture, white at L (without this switch it is written
                        beside the picture as NAME.difference.png when the comparison fails)
 
+Labels
+  --pick X,Y           print identifier, text and nodes of the labelled object ('model.iv.labels') at
+                       this pixel of the last frame, from the lower left corner; opaque surfaces
+                       count. Repeatable, a picture need not be written
+
 Light measuring: direct illuminance in lux with shadows, by rays; reflected light does not count.
 Lights state candela=N or lumen=N, directional ones lux=N, as user value, description or part of
 their name; a node states metresPerUnit=N. Without -o and the like nothing is drawn.
@@ -111,7 +116,8 @@ void printHelp()
 bool printKeys()
 {
     // A kit enters its keys when its library is loaded; osgviewer's own are not there.
-    osgDB::Registry::instance()->getReaderWriterForExtension("shadowvolume");
+    for (const char* kit : {"shadowvolume", "labels"})
+        osgDB::Registry::instance()->getReaderWriterForExtension(kit);
     const auto& bindings = osg::ApplicationUsage::instance()->getKeyboardMouseBindings();
     for (const auto& [key, help] : bindings)
         std::printf("%s  %s\n", key.c_str(), help.c_str());

@@ -87,7 +87,7 @@ bool RenderJob::run(std::string& error)
 bool RenderJob::drawAll(std::string& error)
 {
     return openWindow(error) && placeCamera(error) && waitForTiles(error) && drawFrames(error) &&
-           timeFrames(error);
+           pickLabels(error) && timeFrames(error);
 }
 
 bool RenderJob::measureLight(std::string& error)
@@ -258,6 +258,20 @@ bool RenderJob::drawFrames(std::string& error)
     gatherStatistics();
     gatherTimes(_arguments.frames > 1 ? first : first - 1);
     measureCoverage();
+    return true;
+}
+
+bool RenderJob::pickLabels(std::string& error)
+{
+    for (const PickPoint& point : _arguments.picks)
+    {
+        if (!askLabels(*_model, point, _arguments.width, _arguments.height, error) ||
+            !drawFrame(_arguments.frames - 1, false, error))
+            return false;
+        const std::vector<PickResult> results = takeAnswers(*_model, point);
+        _report.picks.insert(_report.picks.end(), results.begin(), results.end());
+    }
+    std::printf("%s", pickText(_report.picks).c_str());
     return true;
 }
 

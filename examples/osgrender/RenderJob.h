@@ -40,6 +40,7 @@ private:
     bool drawFrame(int index, bool wanted, std::string& error);
     bool waitForTiles(std::string& error);
     bool drawFrames(std::string& error);
+    bool pickLabels(std::string& error);
     bool timeFrames(std::string& error);
     bool writeFrame(int index, std::string& error);
     bool compareWithReference(std::string& error);

@@ -69,6 +69,14 @@ nlohmann::json toJson(const GridResult& grid)
             {"uniformity", grid.uniformity}};
 }
 
+nlohmann::json toJson(const PickResult& pick)
+{
+    return {{"point", {pick.point.x, pick.point.y}},
+            {"identifier", pick.identifier},
+            {"text", pick.text},
+            {"path", pick.path}};
+}
+
 } // namespace
 
 double Times::quantile(double share) const
@@ -116,6 +124,8 @@ nlohmann::json toJson(const Report& report)
         json["probes"].push_back(toJson(point));
     for (const GridResult& grid : report.probes.grids)
         json["probeGrids"].push_back(toJson(grid));
+    for (const PickResult& pick : report.picks)
+        json["picks"].push_back(toJson(pick));
     if (report.comparison)
         json["comparison"] = *report.comparison;
     return json;

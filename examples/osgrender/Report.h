@@ -2,6 +2,7 @@
 #pragma once
 
 #include "Capture.h"
+#include "Pick.h"
 #include "Probe.h"
 
 #include <osgMultiRender/Plan.h>
@@ -47,6 +48,7 @@ struct Report
     unsigned int warnings = 0;
     std::vector<osgMultiRender::Plan> plans;
     ProbeResult probes;
+    std::vector<PickResult> picks;
     std::optional<std::string> comparison; ///< The finding of --reference.
 };
 

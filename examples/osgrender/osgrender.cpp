@@ -163,8 +163,8 @@ int main(int argc, char** argv)
     }
     if (process.listKeys)
         return printKeys() ? Done
-                           : complain("--list-keys: the plugin osgdb_shadowvolume is not found; "
-                                      "OSG_LIBRARY_PATH says where plugins are",
+                           : complain("--list-keys: neither osgdb_shadowvolume nor osgdb_labels is "
+                                      "found; OSG_LIBRARY_PATH says where plugins are",
                                       Failed);
     if (argc < 2)
         return complain("no model given; osgrender --help lists all switches", WrongArguments);

@@ -145,6 +145,7 @@ TEST(PseudoSettings, quotesKeepCommasSpacesAndBrackets)
     EXPECT_EQ(parsed("text='a, b) c'"), (Settings{{"text", "a, b) c"}}));
     EXPECT_EQ(parsed("text=\"it's\" x=1"), (Settings{{"text", "it's"}, {"x", "1"}}));
     EXPECT_EQ(parsed("text=''"), (Settings{{"text", ""}}));
+    EXPECT_EQ(parsed("text='it'\"'\"'s \"'"), (Settings{{"text", "it's \""}}));
 }
 
 TEST(PseudoSettings, brokenOnesAreErrorsWithThePosition)

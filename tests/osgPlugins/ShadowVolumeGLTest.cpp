@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include <support/ChildProcess.h>
+#include "StockPrograms.h"
+
 #include <support/CompareImage.h>
-#include <support/HeadlessViewer.h>
 #include <support/InventorModels.h>
 #include <support/NotifyCapture.h>
-#include <support/TemporaryFolder.h>
 
 #include <osgShadowVolume/SceneOptions.h>
 #include <osgShadowVolume/ShadowKeys.h>
@@ -14,69 +13,14 @@
 
 #include <filesystem>
 
-// The stock programs of OSG as child processes, with nothing of ours but the plugins.
-
 namespace
 {
 
 using osgShadowVolume::ShadowedScene;
-using Picture = osg::ref_ptr<osg::Image>;
-using Environment = std::map<std::string, std::string>;
 
-class ShadowVolumePlugin : public testing::Test
+class ShadowVolumePlugin : public StockPrograms
 {
 protected:
-    void SetUp() override
-    {
-        static support::HeadlessViewer viewer({16, 16});
-        OSGKITS_NEED_GL(viewer);
-    }
-
-    support::ProcessResult run(const std::vector<std::string>& arguments,
-                               Environment environment = {}) const
-    {
-        environment["OSG_RUN_FRAME_COUNT"] = "3";
-        support::ChildProcess process;
-        process.arguments = arguments;
-        process.environment = std::move(environment);
-        process.unset = {"DISPLAY"};
-        return process.run();
-    }
-
-    /// The last frame of osgviewer; null and a failure where it drew none.
-    Picture view(const std::string& model, Environment environment = {},
-                 const std::vector<std::string>& more = {"--SingleThreaded"}) const
-    {
-        static int number = 0;
-        const std::string file = _folder.file("view" + std::to_string(number++) + ".png");
-        environment["OSG_HEADLESS_CAPTURE"] = file;
-        std::vector<std::string> arguments = {"osgviewer", "-e", "egl", "--window",
-                                              "0",         "0",  "128", "96"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        arguments.push_back(model);
-        const support::ProcessResult result = run(arguments, environment);
-        EXPECT_EQ(result.exitCode, 0) << result.output << result.errors;
-        Picture picture = osgDB::readRefImageFile(file);
-        EXPECT_TRUE(picture.valid()) << result.output << result.errors;
-        return picture;
-    }
-
-    /// Saves what `model` loads as `file`, which is returned.
-    std::string convert(const std::string& model, const std::string& file) const
-    {
-        const std::string path = _folder.file(file);
-        const support::ProcessResult result = run({"osgconv", model, path});
-        EXPECT_EQ(result.exitCode, 0) << result.output << result.errors;
-        EXPECT_TRUE(std::filesystem::exists(path)) << result.output << result.errors;
-        return path;
-    }
-
-    static bool differ(const osg::Image& a, const osg::Image& b)
-    {
-        return support::difference(a, b, 4.0 / 255.0).getShareOver() > 0.005;
-    }
-
-    support::TemporaryFolder _folder;
     const std::string _king = support::inventorModel("chess/king.iv");
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <support/SettingsPage.h>
+
 #include <osgShadowVolume/SceneOptions.h>
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 
 using namespace osgShadowVolume;
 
@@ -134,31 +134,10 @@ TEST(SceneOptionsTest, noOptionTakesAnythingElse)
 
 TEST(SceneOptionsTest, eachOptionIsDocumented)
 {
-    std::ifstream file(OSGKITS_SETTINGS_PAGE);
-    std::map<std::string, std::string> rows;
-    for (std::string line; std::getline(file, line);)
-        if (line.compare(0, 3, "| `") == 0)
-            rows[line.substr(3, line.find('`', 3) - 3)] = line;
     const Scene defaults = new ShadowedScene;
+    std::vector<support::DocumentedSetting> settings;
     for (const SceneOption& option : sceneOptions())
-    {
-        ASSERT_TRUE(rows.count(option.name)) << option.name;
-        const std::string& row = rows[option.name];
-        EXPECT_NE(row.find(option.format(*defaults).substr(0, 7)), std::string::npos) << row;
-        std::istringstream values(option.values);
-        for (std::string value; std::getline(values, value, '|');)
-        {
-            if (value[0] != '<')
-            {
-                EXPECT_NE(row.find("`" + value + "`"), std::string::npos) << value << row;
-            }
-        }
-        if (const std::size_t dots = option.values.find(".."); dots != std::string::npos)
-        {
-            const std::string low = option.values.substr(1, dots - 1);
-            const std::string high = option.values.substr(dots + 2);
-            EXPECT_NE(row.find(low + " to " + high.substr(0, high.size() - 1)), std::string::npos)
-                << row;
-        }
-    }
+        settings.push_back({option.name, option.values, option.format(*defaults)});
+    EXPECT_EQ(support::undocumented(OSGKITS_SETTINGS_PAGE, "## Shadows", settings),
+              std::vector<std::string>());
 }

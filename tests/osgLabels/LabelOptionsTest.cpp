@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include <support/NotifyCapture.h>
+#include <support/SettingsPage.h>
+
+#include <osgLabels/LabelOptions.h>
+#include <osgLabels/LabelScene.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace osgLabels;
+
+namespace
+{
+
+using Lines = std::vector<std::string>;
+
+/// A text for each option that is not its default.
+const std::map<std::string, std::string> Changed = {{"text", "value:tag"},
+                                                    {"match", R"(^P-\d+, "it's" [(]x[)]$)"},
+                                                    {"font", "/fonts/Some Font.ttf"},
+                                                    {"proportional", "on"},
+                                                    {"size", "0.3"},
+                                                    {"gap", "7.5"},
+                                                    {"readable", "0"},
+                                                    {"up", "screen"},
+                                                    {"texcoord", "2"},
+                                                    {"chunk", "on"},
+                                                    {"ink", "#ff8000"},
+                                                    {"plate", "#10203080"},
+                                                    {"outline", "#ffffff:0.05"},
+                                                    {"keys", "off"}};
+
+LabelSettings allChanged()
+{
+    LabelSettings settings;
+    std::string error;
+    for (const auto& [name, text] : Changed)
+        EXPECT_TRUE(setLabelOption(settings, name, text, error)) << error;
+    return settings;
+}
+
+std::string errorOf(const std::string& name, const std::string& text)
+{
+    LabelSettings settings;
+    std::string error;
+    EXPECT_FALSE(setLabelOption(settings, name, text, error)) << name << "=" << text;
+    return error;
+}
+
+} // namespace
+
+TEST(LabelOptionsTest, eachOptionSetsItsOwnAndSaysItAgain)
+{
+    ASSERT_EQ(labelOptions().size(), Changed.size());
+    const LabelSettings defaults;
+    for (const LabelOption& option : labelOptions())
+    {
+        LabelSettings settings;
+        EXPECT_NE(option.format(settings), Changed.at(option.name));
+        EXPECT_EQ(option.parse(settings, Changed.at(option.name)), "") << option.name;
+        for (const LabelOption& other : labelOptions())
+            EXPECT_EQ(other.format(settings),
+                      other.name == option.name ? Changed.at(option.name) : other.format(defaults))
+                << option.name << " and " << other.name;
+    }
+}
+
+TEST(LabelOptionsTest, settingsArriveInTheScene)
+{
+    const LabelSettings settings = allChanged();
+    EXPECT_EQ(settings.source, "value:tag");
+    EXPECT_EQ(settings.match, Changed.at("match"));
+    EXPECT_EQ(settings.font, "/fonts/Some Font.ttf");
+    EXPECT_TRUE(settings.proportional);
+    EXPECT_EQ(settings.size, 0.3f);
+    EXPECT_EQ(settings.gap, 7.5f);
+    EXPECT_EQ(settings.readable, 0.0f);
+    EXPECT_EQ(settings.up, LabelUp::Screen);
+    EXPECT_EQ(settings.texCoord, 2);
+    EXPECT_TRUE(settings.chunk);
+    EXPECT_FALSE(settings.keys);
+    const LabelStyle& style = settings.styles.at(0);
+    EXPECT_EQ(style.ink, osg::Vec4(1.0f, 128.0f / 255.0f, 0.0f, 1.0f));
+    EXPECT_EQ(style.plate, osg::Vec4(16, 32, 48, 128) / 255.0f);
+    EXPECT_EQ(style.outline, osg::Vec3(1.0f, 1.0f, 1.0f));
+    EXPECT_EQ(style.outlineWidth, 0.05f);
+}
+
+TEST(LabelOptionsTest, theTextOfAllSettingsReadsBack)
+{
+    const std::string text = formatLabelOptions(allChanged());
+    LabelSettings read;
+    EXPECT_EQ(parseLabelOptions(read, text), Lines());
+    for (const LabelOption& option : labelOptions())
+        EXPECT_EQ(option.format(read), Changed.at(option.name)) << text;
+    EXPECT_EQ(formatLabelOptions(LabelSettings()), "") << "defaults need no text";
+}
+
+TEST(LabelOptionsTest, defaultsCanBeSaidOverOtherSettings)
+{
+    LabelSettings settings = allChanged();
+    const LabelSettings defaults;
+    for (const LabelOption& option : labelOptions())
+        EXPECT_EQ(option.parse(settings, option.format(defaults)), "") << option.name;
+    EXPECT_EQ(formatLabelOptions(settings), "");
+}
+
+TEST(LabelOptionsTest, wrongTextIsNamedWithWhatMayBeSaid)
+{
+    EXPECT_EQ(errorOf("size", "2"), "setting 'size': '2' is no number of 0.05..0.9");
+    EXPECT_EQ(errorOf("up", "w"), "setting 'up': 'w' is none of z|y|x|screen");
+    EXPECT_EQ(errorOf("ink", "red"),
+              "setting 'ink': 'red' is neither auto nor a visible colour #rrggbb");
+    EXPECT_EQ(errorOf("outline", "#ffffff:0.5"),
+              "setting 'outline': '#ffffff:0.5' is neither off nor a colour and a width, 0 to "
+              "0.125: #ffffff:0.05");
+    EXPECT_EQ(errorOf("match", "(").substr(0, 43), "setting 'match': '(' is no regular expressi");
+    EXPECT_EQ(errorOf("sise", "2"),
+              "unknown setting 'sise'; known are text, match, font, proportional, size, gap, "
+              "readable, up, texcoord, chunk, ink, plate, outline, keys");
+}
+
+TEST(LabelOptionsTest, noOptionButThoseOfTextTakesAnythingElse)
+{
+    for (const LabelOption& option : labelOptions())
+    {
+        if (option.name == "text" || option.name == "font" || option.name == "match")
+            continue;
+        for (const char* text :
+             {"",        " ",        "x1",          "1x",      "0x10",     "nan",
+              "inf",     "1e999",    "-2",          "1 2",     "+1",       "1,5",
+              "On",      "#",        "#12345",      "#12345g", "#1234567", "# 23456",
+              "#+12345", "#ffffff:", "#ffffff:nan", ":0.05",   "off:0.1"})
+        {
+            LabelSettings settings;
+            const std::string before = option.format(settings);
+            EXPECT_NE(option.parse(settings, text), "") << option.name << "=" << text;
+            EXPECT_EQ(option.format(settings), before) << option.name << "=" << text;
+        }
+    }
+}
+
+TEST(LabelOptionsTest, aSceneTakesWhatIsRightInATextAndNamesTheRest)
+{
+    const osg::ref_ptr<LabelScene> scene = new LabelScene;
+    support::NotifyCapture capture;
+    scene->setSettingsText("size=0.3,gap=wide,colour=red");
+    EXPECT_EQ(scene->getSettingsText(), "size='0.3'");
+    Lines warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 2u);
+    EXPECT_EQ(warnings[0].substr(0, 74),
+              "osgLabels::LabelScene: unknown setting 'colour'; known are text, match, fo");
+    EXPECT_EQ(warnings[1], "osgLabels::LabelScene: setting 'gap': 'wide' is no number of 0..1000; "
+                           "it does not count");
+    scene->setSettingsText("size='0.4");
+    EXPECT_EQ(scene->getSettingsText(), "");
+    warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0], "osgLabels::LabelScene: quote that opens at character 6 of 'size='0.4' "
+                           "is not closed; it does not count");
+}
+
+TEST(LabelOptionsTest, aCopyOfASceneHasItsSettings)
+{
+    const osg::ref_ptr<LabelScene> scene = new LabelScene;
+    scene->setSettings(allChanged());
+    scene->setShown(false);
+    scene->addChild(new osg::Group);
+    const osg::ref_ptr<LabelScene> copy =
+        static_cast<LabelScene*>(scene->clone(osg::CopyOp::DEEP_COPY_ALL));
+    EXPECT_EQ(copy->getSettingsText(), scene->getSettingsText());
+    EXPECT_FALSE(copy->isShown());
+    ASSERT_EQ(copy->getNumChildren(), 1u);
+    EXPECT_NE(copy->getChild(0), scene->getChild(0));
+    EXPECT_EQ(copy->getNumChildrenRequiringEventTraversal(),
+              scene->getNumChildrenRequiringEventTraversal());
+}
+
+TEST(LabelOptionsTest, eachOptionIsDocumented)
+{
+    const LabelSettings defaults;
+    std::vector<support::DocumentedSetting> settings;
+    for (const LabelOption& option : labelOptions())
+        settings.push_back({option.name, option.values, option.format(defaults)});
+    EXPECT_EQ(support::undocumented(OSGKITS_SETTINGS_PAGE, "## Labels", settings), Lines());
+}
