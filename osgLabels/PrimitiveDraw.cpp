@@ -109,6 +109,7 @@ void PrimitiveRun::resizeGLObjectBuffers(unsigned int maxSize)
     osg::Drawable::resizeGLObjectBuffers(maxSize);
     if (!_meshes)
         return;
+    _page->resizeGLObjectBuffers(maxSize);
     const auto resize = [maxSize](const osg::BufferData& data)
     { const_cast<osg::BufferData&>(data).resizeGLObjectBuffers(maxSize); };
     resize(*_meshes->positions());
@@ -121,6 +122,7 @@ void PrimitiveRun::releaseGLObjects(osg::State* state) const
     osg::Drawable::releaseGLObjects(state);
     if (!_meshes)
         return;
+    _page->releaseGLObjects(state);
     _meshes->positions()->releaseGLObjects(state);
     _meshes->normals()->releaseGLObjects(state);
     _meshes->indices()->releaseGLObjects(state);

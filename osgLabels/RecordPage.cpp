@@ -117,6 +117,18 @@ void RecordPage::setColor(unsigned int i, const osg::Vec4ub& color)
     _colors->dirty();
 }
 
+void RecordPage::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    _records->resizeGLObjectBuffers(maxSize);
+    _colors->resizeGLObjectBuffers(maxSize);
+}
+
+void RecordPage::releaseGLObjects(osg::State* state) const
+{
+    _records->releaseGLObjects(state);
+    _colors->releaseGLObjects(state);
+}
+
 void RecordPage::makeStateSets()
 {
     constexpr GLenum rgba32ui = 0x8D70, rgba8 = 0x8058;

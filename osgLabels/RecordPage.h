@@ -37,6 +37,10 @@ public:
     /// What drawables of this page need: the buffers, a program, a material that takes colours.
     osg::StateSet* getStateSet(bool transparent) const { return _stateSets[transparent].get(); }
 
+    /// The buffers' part of what nodes do; the state sets are the nodes' own to forward.
+    void resizeGLObjectBuffers(unsigned int maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
 protected:
     ~RecordPage() override = default;
 

@@ -74,20 +74,30 @@ void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet
 {
     osg::State& state = *renderInfo.getState();
     const bool hasProgram = over.getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
-    std::vector<SurfaceItem> selected;
+    std::vector<SurfaceItem> selected, instanced;
     forEachItem(
         [&](const SurfaceItem& item)
         {
             if (!item.variant || !select(item))
                 return;
-            selected.push_back(item);
             // What is drawn many times has its places from a program with its VertexSnippet.
-            if (hasProgram && !item.variant->getKey().instance)
+            const bool keepsProgram = hasProgram && item.variant->getKey().instance;
+            (keepsProgram ? instanced : selected).push_back(item);
+            if (hasProgram && !keepsProgram)
                 selected.back().variant = nullptr;
         });
-    state.pushStateSet(&over);
-    draw(renderInfo, selected.data(), selected.size());
-    state.popStateSet();
+    const auto drawUnder = [&](const osg::StateSet& stateSet, const std::vector<SurfaceItem>& items)
+    {
+        state.pushStateSet(&stateSet);
+        draw(renderInfo, items.data(), items.size());
+        state.popStateSet();
+    };
+    drawUnder(over, selected);
+    if (instanced.empty())
+        return;
+    const osg::ref_ptr<osg::StateSet> withoutProgram = new osg::StateSet(over);
+    withoutProgram->removeAttribute(osg::StateAttribute::PROGRAM);
+    drawUnder(*withoutProgram, instanced);
 }
 
 void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,

@@ -13,6 +13,7 @@ using namespace osgLabels;
 namespace
 {
 
+// At their own size: OSG does not normalize normals below a scale.
 constexpr int Sides = 12;
 
 std::string numbers(std::initializer_list<double> values)
@@ -25,31 +26,6 @@ std::string numbers(std::initializer_list<double> values)
         text += (text.empty() ? "" : " ") + std::string(number);
     }
     return text;
-}
-
-/// By what the mesh of a shape is scaled along each axis, and the shape's size before that.
-struct Scaling
-{
-    osg::Vec3 scale, size;
-};
-
-Scaling scalingOf(const Primitive& primitive)
-{
-    const osg::Vec3& size = primitive.size;
-    switch (primitive.shape)
-    {
-    case Shape::Torus:
-        return {{size.y(), size.y(), size.y()}, {size.x() / size.y(), 1.0f, size.z()}};
-    case Shape::Frustum:
-    {
-        const float radius = std::max(size.x(), size.y());
-        return {{radius, radius, size.z()}, {size.x() / radius, size.y() / radius, 1.0f}};
-    }
-    case Shape::Quad:
-        return {{size.x(), size.y(), 1.0f}, {1.0f, 1.0f, 0.0f}};
-    default:
-        return {size, {1.0f, 1.0f, 1.0f}};
-    }
 }
 
 /// Inventor's shapes: its cylinder lies along y.
@@ -107,11 +83,6 @@ void InventorWriter::add(const Primitive& primitive)
     _out << "Separator {\nTransform { translation " << numbers({at.x(), at.y(), at.z()});
     if (angle != 0.0)
         _out << " rotation " << numbers({x, y, z, angle});
-    if (!isBuiltIn(primitive.shape))
-    {
-        const osg::Vec3 scale = scalingOf(primitive).scale;
-        _out << " scaleFactor " << numbers({scale.x(), scale.y(), scale.z()});
-    }
     const osg::Vec4ub& color = primitive.color;
     _out << " }\nMaterial { diffuseColor "
          << numbers({color.r() / 255.0, color.g() / 255.0, color.b() / 255.0});
@@ -135,9 +106,8 @@ void InventorWriter::writeShape(const Primitive& primitive)
              << numbers({2.0 * size.y()}) << " depth " << numbers({2.0 * size.z()}) << " }\n";
     else
     {
-        const osg::Vec3 unit = scalingOf(primitive).size;
         const std::string key = std::to_string(unsigned(primitive.shape)) + " " +
-                                numbers({unit.x(), unit.y(), unit.z()});
+                                numbers({size.x(), size.y(), size.z()});
         writeMesh(primitive, key);
     }
 }
@@ -151,7 +121,7 @@ void InventorWriter::writeMesh(const Primitive& primitive, const std::string& ke
         _out << "USE " << name << "\n";
         return;
     }
-    const osg::Vec3 size = scalingOf(primitive).size;
+    const osg::Vec3& size = primitive.size;
     ObjectRecord record;
     record.shape = std::uint32_t(primitive.shape);
     record.size = glm::vec3(size.x(), size.y(), size.z());

@@ -8,6 +8,7 @@
 
 #include <osg/ArgumentParser>
 #include <osgDB/ReadFile>
+#include <osgUtil/LineSegmentIntersector>
 
 #include <sys/resource.h>
 
@@ -112,6 +113,25 @@ void frames(unsigned int objects, unsigned int mostDrawables, int rounds)
     }
 }
 
+/// A long line low over the ground, through as much as it can meet.
+void pick(osg::Node& node, int rounds)
+{
+    const osg::BoundingSphere bound = node.getBound();
+    const osg::Vec3d along(bound.radius(), 0.3 * bound.radius(), 0.0);
+    const osg::Vec3d middle = osg::Vec3d(bound.center().x(), bound.center().y(), 5.0);
+    Times times;
+    std::size_t hits = 0;
+    for (int round = 0; round < rounds; ++round)
+    {
+        osg::ref_ptr<osgUtil::LineSegmentIntersector> line =
+            new osgUtil::LineSegmentIntersector(middle - along, middle + along);
+        osgUtil::IntersectionVisitor visitor(line);
+        measure(times, [&] { node.accept(visitor); });
+        hits = line->getIntersections().size();
+    }
+    std::printf("a line with %zu hits: %.2f ms (CPU %.2f)\n", hits, times.clock, times.cpu);
+}
+
 void load(const std::string& file, int rounds)
 {
     const double before = residentMebibytes();
@@ -127,6 +147,8 @@ void load(const std::string& file, int rounds)
     }
     std::printf("%s: %s in %.0f ms (CPU %.0f), %.1f MiB\n", file.c_str(),
                 node ? "loaded" : "not loaded", times.clock, times.cpu, used);
+    if (node)
+        pick(*node, rounds + 2);
 }
 
 } // namespace

@@ -8,10 +8,11 @@
 #include <support/NotifyCapture.h>
 
 #ifdef OSGKITS_SHADOWVOLUME
-#include <osgShadowVolume/LitScene.h>
+#include <osgShadowVolume/ShadowedScene.h>
 #endif
 
 #include <osg/Geometry>
+#include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
 #include <osgDB/ReadFile>
@@ -171,6 +172,29 @@ TEST_F(PrimitiveBatchGLTest, whatFilesHoldLooksTheSame)
     EXPECT_TRUE(SamePicture(actual, picture(batch, cameraAt({})), "primitivesCopied"));
 }
 
+TEST_F(PrimitiveBatchGLTest, releasedObjectsAreMadeAgain)
+{
+    const auto batch = batchOf(rowOfShapes());
+    const auto before = picture(batch, cameraAt({}));
+    for (int i = 0; i < 3; ++i)
+    {
+        batch->releaseGLObjects();
+        EXPECT_TRUE(SamePicture(picture(batch, cameraAt({})), before, "primitivesReleased"));
+    }
+}
+
+TEST_F(PrimitiveBatchGLTest, looksTheSameWithVertexArrayObjects)
+{
+    const auto batch = batchOf(rowOfShapes());
+    const auto before = picture(batch, cameraAt({}));
+    for (const auto& run : batch->getRuns())
+        run->setUseVertexArrayObject(true);
+    const osg::ref_ptr<osg::Group> both = new osg::Group;
+    both->addChild(batch);
+    EXPECT_TRUE(SamePicture(_viewer.render(both, cameraAt({}), Width, Height, 3), before,
+                            "primitivesVertexArrays"));
+}
+
 TEST_F(PrimitiveBatchGLTest, manyPagesAndCellsAreDrawn)
 {
     // More than RecordPage::MaxObjects: two pages; a wall of quads without a gap.
@@ -209,5 +233,26 @@ TEST_F(PrimitiveBatchGLTest, surfaceFunctionsLightItAsTheFixedFunctionDoes)
     scene->addChild(batch);
     const auto actual = picture(scene, cameraAt({}));
     EXPECT_TRUE(SamePicture(actual, expected, "primitivesLit"));
+}
+
+TEST_F(PrimitiveBatchGLTest, castsAndTakesShadowsAsGeometriesDo)
+{
+    osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+    source->getLight()->setLightNum(1);
+    source->getLight()->setDiffuse({0.9f, 0.9f, 0.9f, 1.0f});
+    source->getLight()->setPosition({-1.0f, -0.6f, 0.7f, 0.0f});
+    const auto lit = [&](osg::Node* node)
+    {
+        osg::ref_ptr<osgShadowVolume::ShadowedScene> scene = new osgShadowVolume::ShadowedScene;
+        scene->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+        scene->addChild(source);
+        scene->addChild(node);
+        return picture(scene, cameraAt({}));
+    };
+    const auto batch = batchOf(rowOfShapes());
+    // What casts is the level that visitors see.
+    batch->setLevel(VisitorLevel);
+    EXPECT_TRUE(
+        SamePicture(lit(batch), lit(geometriesOf(*batch, VisitorLevel)), "primitivesShadowed"));
 }
 #endif

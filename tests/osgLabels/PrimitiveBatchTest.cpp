@@ -298,6 +298,23 @@ TEST(PrimitiveBatchTest, filesKeepAllObjects)
     }
 }
 
+TEST(PrimitiveBatchTest, textFilesKeepObjectsFarFromTheOrigin)
+{
+    const osg::Vec3d far(1e7, -2e7, 3e6);
+    const auto batch = batchOf(rowOfShapes(far));
+    const osg::ref_ptr<osg::Node> node = read(write(*batch, "osgt"), "osgt").getNode();
+    auto* copy = dynamic_cast<PrimitiveBatch*>(node.get());
+    ASSERT_TRUE(copy);
+    ASSERT_EQ(copy->getNumObjects(), 10u);
+    for (unsigned int i = 0; i < 10; ++i)
+    {
+        const Primitive a = batch->getPrimitive(i), b = copy->getPrimitive(i);
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.size, b.size);
+        EXPECT_LT((a.position - b.position).length(), 2e-6);
+    }
+}
+
 TEST(PrimitiveBatchTest, filesThatAreCutOffAreRefused)
 {
     const std::string text = write(*batchOf(crowd(300)), "osgb");

@@ -7,6 +7,9 @@
 #include <osgDB/Serializer>
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 
 namespace
 {
@@ -131,17 +134,39 @@ std::string readContent(osgDB::InputStream& is, PrimitiveBatch::Content& content
     return {};
 }
 
+// osgDB writes six digits, with which an object at 1e7 would move by metres. As words, numbers keep
+// all that they have.
+void writeNumbers(osgDB::OutputStream& os, const std::vector<double>& numbers, int digits)
+{
+    for (double number : numbers)
+    {
+        char text[40];
+        std::snprintf(text, sizeof text, "%.*g", digits, number);
+        os << std::string(text);
+    }
+}
+
+double readNumber(osgDB::InputStream& is)
+{
+    std::string text;
+    is >> text;
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return text.empty() || *end ? std::numeric_limits<double>::quiet_NaN() : number;
+}
+
 void writeText(osgDB::OutputStream& os, const PrimitiveBatch& batch)
 {
     for (unsigned int i = 0; i < batch.getNumObjects(); ++i)
     {
-        const osgLabels::Primitive primitive = batch.getPrimitive(i);
-        const osg::Vec4ub& color = primitive.color;
-        os << static_cast<unsigned int>(primitive.shape) << primitive.size << primitive.position
-           << primitive.rotation << static_cast<unsigned int>(color.r())
-           << static_cast<unsigned int>(color.g()) << static_cast<unsigned int>(color.b())
-           << static_cast<unsigned int>(color.a());
-        os.writeWrappedString(primitive.name);
+        const osgLabels::Primitive p = batch.getPrimitive(i);
+        os << static_cast<unsigned int>(p.shape);
+        writeNumbers(os, {p.size.x(), p.size.y(), p.size.z()}, 9);
+        writeNumbers(os, {p.position.x(), p.position.y(), p.position.z()}, 17);
+        writeNumbers(os, {p.rotation.x(), p.rotation.y(), p.rotation.z(), p.rotation.w()}, 9);
+        for (int channel = 0; channel < 4; ++channel)
+            os << static_cast<unsigned int>(p.color[channel]);
+        os.writeWrappedString(p.name);
         os << std::endl;
     }
 }
@@ -151,17 +176,24 @@ std::string readText(osgDB::InputStream& is, PrimitiveBatch& batch, unsigned int
     for (unsigned int i = 0; i < objects; ++i)
     {
         osgLabels::Primitive primitive;
-        unsigned int shape = 0, color[4] = {};
-        is >> shape >> primitive.size >> primitive.position >> primitive.rotation;
-        for (unsigned int& channel : color)
-            is >> channel;
+        unsigned int shape = 0;
+        is >> shape;
+        primitive.shape = osgLabels::Shape(shape);
+        for (int axis = 0; axis < 3; ++axis)
+            primitive.size[axis] = float(readNumber(is));
+        for (int axis = 0; axis < 3; ++axis)
+            primitive.position[axis] = readNumber(is);
+        for (int axis = 0; axis < 4; ++axis)
+            primitive.rotation[axis] = readNumber(is);
+        for (int channel = 0; channel < 4; ++channel)
+        {
+            unsigned int value = 0;
+            is >> value;
+            primitive.color[channel] = static_cast<unsigned char>(std::min(value, 255u));
+        }
         is.readWrappedString(primitive.name);
         if (is.getException())
             return "object " + std::to_string(i) + " is cut off";
-        primitive.shape = osgLabels::Shape(shape);
-        primitive.color.set(
-            static_cast<unsigned char>(color[0]), static_cast<unsigned char>(color[1]),
-            static_cast<unsigned char>(color[2]), static_cast<unsigned char>(color[3]));
         if (!batch.add(primitive))
             return "object " + std::to_string(i) + " can't be drawn";
     }
