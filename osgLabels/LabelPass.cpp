@@ -8,6 +8,7 @@
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/GLExtensions>
+#include <osg/Geometry>
 #include <osg/Viewport>
 
 #include <osgUtil/CullVisitor>
@@ -103,17 +104,21 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
 {
     if (!_resources || !_resources->collector)
         return;
+    bool isEmpty = true;
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
         forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
                     [&](const osgUtil::RenderLeaf& leaf)
                     {
+                        isEmpty = false;
                         const std::uint32_t object = objectOf(leaf, view);
                         if (object)
                             _objects.emplace(&leaf, object);
                     });
     }
     _resources->fitNew();
+    if (isEmpty && _resources->pick.takeQuestion()) // nothing will be drawn
+        _resources->pick.answer(0);
 }
 
 std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
@@ -146,6 +151,7 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
+    _asked = _resources->pick.takeQuestion();
     _targets = _resources->targets.acquire(
         _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], _target});
 }
@@ -155,9 +161,6 @@ void LabelPass::makeUnder(osg::State& state)
     _under = new osg::StateSet;
     _resources->update(state, *_under);
     const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, Over); };
-    add(new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
-                                                         2.0f / float(std::max(1, _viewport[2])),
-                                                         2.0f / float(std::max(1, _viewport[3])))));
     add(new osg::Uniform("osgLabels_layoutOfText",
                          osg::Vec2(_resources->settings.size, _resources->settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
@@ -180,18 +183,28 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
         return;
     const auto found = _objects.find(&leaf);
     number = found == _objects.end() ? 0 : found->second;
-    // What has no program of ours could not say that nothing is written on it.
-    if (!ordered && state.isOpaque())
+    if (!ordered && _target.hasDepth && state.isCopyable() && isInView(state))
         key.output = Diverted;
     if (number)
     {
         key.output |= Labelled;
         _direct += !(key.output & Diverted);
     }
-    if (key.output && key.program)
-        key.output |= OwnProgram;
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    if ((key.output & Labelled) &&
+        (key.program || (geometry && geometry->getVertexAttribArray(indexAttribute))))
+        key.output |= IndexUniform;
     if (key.output && _isPaged)
         key.output |= Paged;
+}
+
+bool LabelPass::isInView(const osgMultiRender::SurfaceState& state) const
+{
+    using osgMultiRender::SurfaceState;
+    const auto* viewport = static_cast<const osg::Viewport*>(state.get(SurfaceState::Viewport));
+    return !viewport ||
+           (GLint(viewport->x()) == _viewport[0] && GLint(viewport->y()) == _viewport[1] &&
+            GLint(viewport->width()) == _viewport[2] && GLint(viewport->height()) == _viewport[3]);
 }
 
 void LabelPass::end(osg::RenderInfo&) {}
@@ -212,7 +225,7 @@ SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
                                  "    osgLabels_outFootprint = vec4(0.0);\n";
         return snippet;
     }
-    if (key.output & OwnProgram)
+    if (key.output & IndexUniform)
         snippet.fragment += "uniform int osgLabels_index;\n";
     else
     {
@@ -293,18 +306,28 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     // osg::Program trims "[0]" off the names of arrays.
     static const unsigned int frameName = osg::Uniform::getNameID("osgLabels_frame");
     static const unsigned int indexName = osg::Uniform::getNameID("osgLabels_index");
+    static const unsigned int viewportName = osg::Uniform::getNameID("osgLabels_viewport");
     osg::State& state = *renderInfo.getState();
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
-    if (bits & OwnProgram)
+    if (bits & IndexUniform)
         gl->glUniform1i(program.getUniformLocation(indexName), GLint(number));
     else
         Extensions::instance().vertexAttribI1i(indexAttribute, GLint(number));
     Applied& applied = _applied[&variant];
+    const osg::Viewport* viewport = state.getCurrentViewport();
     if (applied.isSet && applied.modelview == leaf._modelview.get() &&
-        applied.projection == leaf._projection.get())
+        applied.projection == leaf._projection.get() && applied.viewport == viewport)
         return;
-    applied = {leaf._modelview.get(), leaf._projection.get(), true};
+    if (!applied.isSet || applied.viewport != viewport)
+    {
+        GLint v[4] = {_viewport[0], _viewport[1], _viewport[2], _viewport[3]};
+        if (viewport)
+            glGetIntegerv(GL_VIEWPORT, v);
+        gl->glUniform4f(program.getUniformLocation(viewportName), float(v[0]), float(v[1]),
+                        2.0f / float(std::max(1, v[2])), 2.0f / float(std::max(1, v[3])));
+    }
+    applied = {leaf._modelview.get(), leaf._projection.get(), viewport, true};
     gl->glUniform3fv(program.getUniformLocation(frameName), 10, frameOf(leaf).data());
 }
 
@@ -325,11 +348,10 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
         base->setMode(GL_BLEND, Never);
         state.pushStateSet(base);
         _targets->bind(state);
-        if (_passes == 0)
-            clear(state);
+        clear(state);
         draw();
         state.popStateSet();
-        answerPick(state);
+        readPicked(state);
     }
     composite(renderInfo);
     ++_passes;
@@ -344,22 +366,24 @@ void LabelPass::clear(osg::State& state) const
     const auto& gl = Extensions::instance();
     const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
     gl.clearBufferuiv(GL_COLOR, 1, nothing);
+    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view already.
     const GLfloat far = 1.0f;
-    gl.clearBufferfv(GL_DEPTH, 0, &far);
+    if (_passes == 0)
+        gl.clearBufferfv(GL_DEPTH, 0, &far);
     state.popStateSet();
 }
 
-void LabelPass::answerPick(osg::State& state)
+void LabelPass::readPicked(osg::State& state)
 {
-    const std::optional<LabelPick::Point> point = _resources->pick.takeQuestion();
-    if (!point)
+    if (!_asked)
         return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
     const unsigned int identifier =
-        _targets->readIdentifier(state, pixel(point->x, _viewport[0], _viewport[2]),
-                                 pixel(point->y, _viewport[1], _viewport[3]));
-    _resources->pick.answer(identifier == LabelTargets::Nothing ? 0 : identifier);
+        _targets->readIdentifier(state, pixel(_asked->x, _viewport[0], _viewport[2]),
+                                 pixel(_asked->y, _viewport[1], _viewport[3]));
+    if (identifier != LabelTargets::Nothing)
+        _picked = identifier;
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)
@@ -367,7 +391,7 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     osg::State& state = *renderInfo.getState();
     const int samples = _target.samples;
     osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
-        *_resources->programs.getComposite(_languageVersion, samples, _isPaged, _target.hasDepth));
+        *_resources->programs.getComposite(_languageVersion, samples, _isPaged));
     pass->merge(*_targets->getStateSet());
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));
@@ -400,7 +424,14 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     state.popStateSet();
 }
 
-void LabelPass::drawn(osg::RenderInfo&) {}
+void LabelPass::drawn(osg::RenderInfo&)
+{
+    // Where nothing labelled is in view nothing is under the point either.
+    if (_resources && !_asked)
+        _asked = _resources->pick.takeQuestion();
+    if (_asked)
+        _resources->pick.answer(_picked);
+}
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
 {

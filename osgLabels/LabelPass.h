@@ -8,8 +8,10 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osg/Matrixd>
+#include <osg/Viewport>
 
 #include <array>
+#include <optional>
 #include <unordered_map>
 
 namespace osgLabels
@@ -20,8 +22,8 @@ enum OutputBits : std::uint32_t
 {
     Diverted = 1,   ///< Writes the targets of the first pass.
     Labelled = 2,   ///< Has an object record.
-    OwnProgram = 4, ///< The record's index is a uniform, not an attribute.
-    Paged = 8       ///< Buffers are 2D arrays.
+    IndexUniform = 4, ///< The record's index is a uniform, not an attribute.
+    Paged = 8         ///< Buffers are 2D arrays.
 };
 
 /// Writes places on labels beside the colours, then the glyphs, for one view of one frame.
@@ -58,13 +60,16 @@ private:
     {
         const osg::RefMatrix* modelview = nullptr;
         const osg::RefMatrix* projection = nullptr;
+        const osg::Viewport* viewport = nullptr;
         bool isSet = false;
     };
 
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
+    /// Whether the leaf is drawn into the viewport of the view, not into one of its own.
+    bool isInView(const osgMultiRender::SurfaceState& state) const;
     void clear(osg::State& state) const;
     std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
-    void answerPick(osg::State& state);
+    void readPicked(osg::State& state);
     void composite(osg::RenderInfo& renderInfo);
     void makeUnder(osg::State& state);
 
@@ -79,6 +84,8 @@ private:
     /// Labelled objects in view: their numbers.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
     unsigned int _direct = 0, _passes = 0;
+    std::optional<LabelPick::Point> _asked;
+    std::uint32_t _picked = 0; ///< What lies there, as far as is drawn.
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

@@ -54,12 +54,11 @@ std::string LabelSources::ink()
     return fragmentText("ink.glsl", shaders::ink_glsl);
 }
 
-const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples, bool isPaged,
-                                                 bool hasDepth)
+const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples, bool isPaged)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     osg::ref_ptr<osg::StateSet>& stateSet =
-        _composites[{int(languageVersion * 100.0f), samples, isPaged, hasDepth}];
+        _composites[{int(languageVersion * 100.0f), samples, isPaged}];
     if (stateSet)
         return stateSet.get();
     constexpr auto on = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
@@ -79,8 +78,7 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
     stateSet->setThreadSafeRefUnref(true);
     stateSet->setAttributeAndModes(program, on);
     // The result lies at the surfaces' own depths, among those of siblings.
-    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, true),
-                                   hasDepth ? on : off);
+    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), on);
     for (GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
                         GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
         stateSet->setMode(mode, off);

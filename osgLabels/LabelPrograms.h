@@ -28,14 +28,12 @@ class LabelPrograms
 {
 public:
     /// Program and state of the pass, with OVERRIDE, for targets of so many samples.
-    /// `hasDepth`: the view has a depth buffer to test with.
-    const osg::StateSet* getComposite(float languageVersion, int samples, bool isPaged,
-                                      bool hasDepth);
+    const osg::StateSet* getComposite(float languageVersion, int samples, bool isPaged);
 
     void releaseGLObjects(osg::State* state);
 
 private:
-    using Key = std::tuple<int, int, bool, bool>;
+    using Key = std::tuple<int, int, bool>;
     std::mutex _mutex;
     std::map<Key, osg::ref_ptr<osg::StateSet>> _composites;
 };

@@ -26,7 +26,8 @@ uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprin
     vec2 ndc = (gl_FragCoord.xy - osgLabels_viewport.xy) * osgLabels_viewport.zw - 1.0;
     vec2 depth = osgLabels_frame[9].xy;
     bool parallel = depth.y != 0.0;
-    vec3 clip = vec3(ndc * w, parallel ? depth.x + depth.y * gl_FragCoord.z : w);
+    float z = (gl_FragCoord.z - gl_DepthRange.near) / gl_DepthRange.diff;
+    vec3 clip = vec3(ndc * w, parallel ? depth.x + depth.y * z : w);
     vec3 position = osgLabels_frame[0] * clip.x + osgLabels_frame[1] * clip.y +
                     osgLabels_frame[2] * clip.z + osgLabels_frame[3];
     vec3 dx = dFdx(position);

@@ -133,7 +133,7 @@ TEST_P(FeatureFamily, keepsItsLookUnderLabels)
     {
         if (scene.family != GetParam() || (!Full && number++ % 5 != 0))
             continue;
-        SCOPED_TRACE(scene.name);
+        SCOPED_TRACE(scene.name); fprintf(stderr, "SCENE %s\n", scene.name.c_str());
         support::NotifyCapture notify;
         expectOwnLook(scene.create(), camera, scene.family + "." + scene.name, scene.beyond);
     }
