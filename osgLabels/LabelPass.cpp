@@ -83,6 +83,17 @@ void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil
         forEachLeaf(*inner, f);
 }
 
+/// Points have no surface to write on.
+bool isPoints(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry || geometry->getNumPrimitiveSets() == 0)
+        return false;
+    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
+    return std::all_of(sets.begin(), sets.end(), [](const auto& primitives)
+                       { return primitives->getMode() == GL_POINTS; });
+}
+
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 {
     return osg::Matrixd::transform3x3(v, m);
@@ -126,6 +137,8 @@ std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollecto
     const osg::Drawable& drawable = *leaf._drawable;
     if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
         return _resources->batches.getCount() ? 1 : 0;
+    if (isPoints(drawable))
+        return 0;
     return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
