@@ -275,6 +275,7 @@ osg::ref_ptr<osg::Geometry> ChunkMesh::finish()
         if (_texCoords[unit])
             geometry->setTexCoordArray(unit, _texCoords[unit], osg::Array::BIND_PER_VERTEX);
     _objects->setPreserveDataType(true);
+    _objects->setName(ObjectsName);
     geometry->setVertexAttribArray(ObjectAttribute, _objects, osg::Array::BIND_PER_VERTEX);
     if (!_triangles.empty())
         geometry->addPrimitiveSet(makeElements(GL_TRIANGLES, _triangles, _vertices->size()));

@@ -47,6 +47,7 @@ class OSGLABELS_EXPORT ChunkMesh
 public:
     /// Generic vertex attribute of the object's number, an integer.
     static constexpr unsigned int ObjectAttribute = 6;
+    static constexpr char ObjectsName[] = "osgLabels.objects"; ///< Of the array of the attribute.
 
     explicit ChunkMesh(const MeshLayout& layout);
 

@@ -51,8 +51,11 @@ std::uint32_t LabelBatches::collect(osg::Node& root, const LabelSource& source, 
         const std::uint32_t firstRecord = _numObjects + 1;
         _batches.push_back({batch.get(), begin, first, firstRecord});
         for (const osg::ref_ptr<PrimitiveRun>& run : batch->getRuns())
+        {
             _bases[run.get()] =
                 int(firstRecord + run->getFirstObject()) - int(run->getFirstRecord());
+            _shapes |= 1u << std::uint32_t(run->getShape());
+        }
         _numObjects += batch->getNumObjects();
     }
     return first;
@@ -72,6 +75,12 @@ std::optional<int> LabelBatches::recordBaseOf(const PrimitiveRun& run) const
     std::lock_guard<std::mutex> lock(_mutex);
     const auto found = _bases.find(&run);
     return found == _bases.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+std::uint32_t LabelBatches::getShapes() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _shapes;
 }
 
 std::uint32_t LabelBatches::getNumObjects() const

@@ -33,6 +33,8 @@ public:
     std::optional<int> recordBaseOf(const PrimitiveRun& run) const;
     /// Objects of all batches: so many records from 1 on are theirs.
     std::uint32_t getNumObjects() const;
+    /// A bit for each shape that they have.
+    std::uint32_t getShapes() const;
 
     struct Found
     {
@@ -52,7 +54,7 @@ private:
     mutable std::mutex _mutex;
     std::vector<Entry> _batches; ///< By identifiers.
     std::unordered_map<const PrimitiveRun*, int> _bases;
-    std::uint32_t _numObjects = 0;
+    std::uint32_t _numObjects = 0, _shapes = 0;
 };
 
 } // namespace osgLabels

@@ -15,6 +15,7 @@ void LabelObjects::set(std::uint32_t object, const ObjectRecord& record)
         _records.resize(object + 1);
     _records[object] = record.pack();
     _changed.push_back(object);
+    _shapes |= 1u << (record.shape & ShapeMask);
 }
 
 const osg::StateSet* LabelObjects::update(osg::State& state)
@@ -101,6 +102,12 @@ std::uint32_t LabelObjects::getIdentifier(std::uint32_t index) const
     if (index > _batches.getNumObjects() && object < _records.size())
         identifier = _records[object].back();
     return identifier;
+}
+
+std::uint32_t LabelObjects::getShapes() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _shapes | _batches.getShapes();
 }
 
 std::size_t LabelObjects::getBytes() const

@@ -33,6 +33,8 @@ public:
     /// Uploads what is new for the context, which is current. Returns texture and uniform.
     const osg::StateSet* update(osg::State& state);
 
+    /// A bit for each shape that a labelled object has.
+    std::uint32_t getShapes() const;
     std::size_t getBytes() const;
     void releaseGLObjects(osg::State* state);
 
@@ -50,7 +52,8 @@ private:
 
     const LabelBatches& _batches;
     mutable std::mutex _mutex;
-    std::vector<Words> _records{1};      ///< By the collector's number; 0 is none.
+    std::vector<Words> _records{1}; ///< By the collector's number; 0 is none.
+    std::uint32_t _shapes = 0;
     std::vector<std::uint32_t> _changed; ///< Objects, in the order in which they were set.
     std::map<unsigned int, Context> _contexts;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelPass.h>
 
+#include <osgLabels/ChunkMesh.h>
 #include <osgLabels/LabelUnits.h>
 #include <osgLabels/PrimitiveRun.h>
 
@@ -83,6 +84,25 @@ void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil
         forEachLeaf(*inner, f);
 }
 
+/// Its vertices say which objects they are of.
+bool isChunk(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const osg::Array* objects = geometry ? geometry->getVertexAttribArray(indexAttribute) : nullptr;
+    return objects && objects->getName() == ChunkMesh::ObjectsName;
+}
+
+/// Points have no surface to write on.
+bool isPoints(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry || geometry->getNumPrimitiveSets() == 0)
+        return false;
+    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
+    return std::all_of(sets.begin(), sets.end(),
+                       [](const auto& primitives) { return primitives->getMode() == GL_POINTS; });
+}
+
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 {
     return osg::Matrixd::transform3x3(v, m);
@@ -104,17 +124,21 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
 {
     if (!_resources || !_resources->collector)
         return;
+    bool isEmpty = true;
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
         forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
                     [&](const osgUtil::RenderLeaf& leaf)
                     {
+                        isEmpty = false;
                         const std::uint32_t object = objectOf(leaf, view);
                         if (object)
                             _objects.emplace(&leaf, object);
                     });
     }
     _resources->fitNew();
+    if (isEmpty && _resources->pick.takeQuestion()) // nothing will be drawn
+        _resources->pick.answer(0);
 }
 
 std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
@@ -124,9 +148,10 @@ std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollecto
         return _resources->batches.recordBaseOf(static_cast<const PrimitiveRun&>(drawable))
                    ? SaysItself
                    : 0;
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (geometry && geometry->getVertexAttribArray(indexAttribute)) // likewise
+    if (isChunk(drawable)) // likewise
         return SaysItself;
+    if (isPoints(drawable))
+        return 0;
     return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
@@ -152,6 +177,7 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
+    _asked = _resources->pick.takeQuestion();
     _targets = _resources->targets.acquire(
         _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3],
                      _resources->settings.texCoord >= 0, _target});
@@ -162,9 +188,6 @@ void LabelPass::makeUnder(osg::State& state)
     _under = new osg::StateSet;
     _resources->update(state, *_under);
     const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, Over); };
-    add(new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
-                                                         2.0f / float(std::max(1, _viewport[2])),
-                                                         2.0f / float(std::max(1, _viewport[3])))));
     add(new osg::Uniform("osgLabels_line",
                          osg::Vec2(_resources->settings.size, _resources->settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
@@ -189,20 +212,38 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
     number = found == _objects.end() ? 0 : found->second;
     if (key.instance && _isPaged) // reads its records from a texture buffer
         number = 0;
-    // What has no program of ours could not say that nothing is written on it.
-    if (!ordered && state.isOpaque())
+    if (!ordered && _target.hasDepth && state.isCopyable() && isInView(state))
         key.output = Diverted;
     if (number)
     {
         key.output |= Labelled;
         _direct += !(key.output & Diverted);
     }
-    if (key.output && key.program)
-        key.output |= OwnProgram;
+    const osg::Geometry* geometry = leaf._drawable->asGeometry();
+    const bool hasOther =
+        geometry && geometry->getVertexAttribArray(indexAttribute) && !isChunk(*geometry);
+    if ((key.output & Labelled) && (key.program || hasOther))
+        key.output |= IndexUniform;
     if (number && !key.program && _resources->settings.texCoord >= 0)
         key.output |= TexCoords | std::uint32_t(_resources->settings.texCoord) << UnitShift;
-    if (key.output && _isPaged)
+    if (!(key.output & Labelled) || (key.output & Diverted))
+        return;
+    // The label is part of the variant's program.
+    if (_isPaged)
         key.output |= Paged;
+    if (_resources->settings.proportional)
+        key.output |= Proportional;
+    if (_resources->hasOutlines())
+        key.output |= Outlined;
+}
+
+bool LabelPass::isInView(const osgMultiRender::SurfaceState& state) const
+{
+    using osgMultiRender::SurfaceState;
+    const auto* viewport = static_cast<const osg::Viewport*>(state.get(SurfaceState::Viewport));
+    return !viewport ||
+           (GLint(viewport->x()) == _viewport[0] && GLint(viewport->y()) == _viewport[1] &&
+            GLint(viewport->width()) == _viewport[2] && GLint(viewport->height()) == _viewport[3]);
 }
 
 void LabelPass::end(osg::RenderInfo&) {}
@@ -231,7 +272,7 @@ SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
 
 void LabelPass::addIndex(const SurfaceKey& key, SurfaceSnippet& snippet)
 {
-    if (key.output & OwnProgram)
+    if (key.output & IndexUniform)
     {
         snippet.fragment += "uniform int osgLabels_index;\n";
         return;
@@ -269,10 +310,10 @@ void LabelPass::addTexCoords(const SurfaceKey& key, SurfaceSnippet& snippet) con
                                   "    osgLabels_outChange = vec4(0.0);\n";
 }
 
-void LabelPass::addLabel(const SurfaceKey& key, SurfaceSnippet& snippet)
+void LabelPass::addLabel(const SurfaceKey& key, SurfaceSnippet& snippet) const
 {
-    snippet.fragment +=
-        LabelSources::locate(key.output & Paged) + LabelSources::ink() + LabelSources::direct();
+    snippet.fragment += LabelSources::locate(_resources->getDefines(key.output & Paged, ~0u)) +
+                        LabelSources::ink() + LabelSources::direct();
     snippet.statements +=
         key.output & TexCoords
             ? "    osgmr_out0 = osgLabels_direct(osgmr_out0, osgLabels_index, osgLabels_texCoord, "
@@ -342,16 +383,19 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();
     const Index index = indexOf(leaf, number);
-    if (bits & OwnProgram)
+    if (bits & IndexUniform)
         gl->glUniform1i(program.getUniformLocation(indexName), index.object);
     else
         Extensions::instance().vertexAttribI1i(indexAttribute, index.object);
     Applied& applied = _applied[&variant];
     if (!applied.isSet || applied.recordBase != index.base)
         gl->glUniform1i(program.getUniformLocation(baseName), index.base);
+    const osg::Viewport* viewport = state.getCurrentViewport();
     const bool sameFrame = applied.isSet && applied.modelview == leaf._modelview.get() &&
                            applied.projection == leaf._projection.get();
-    applied = {leaf._modelview.get(), leaf._projection.get(), index.base, true};
+    if (!(bits & Diverted) && (!applied.isSet || applied.viewport != viewport))
+        setViewport(*gl, program, viewport);
+    applied = {leaf._modelview.get(), leaf._projection.get(), viewport, index.base, true};
     if (sameFrame)
         return;
     const int frame = numberOf(leaf);
@@ -359,6 +403,19 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     if (!(bits & Diverted))
         gl->glUniform3fv(program.getUniformLocation(valuesName), 9,
                          _frames[frame < 0 ? -1 - frame : frame].data());
+}
+
+/// A leaf drawn in the view may have a viewport of its own.
+void LabelPass::setViewport(const osg::GLExtensions& gl,
+                            const osg::Program::PerContextProgram& program,
+                            const osg::Viewport* viewport) const
+{
+    static const unsigned int name = osg::Uniform::getNameID("osgLabels_viewport");
+    GLint v[4] = {_viewport[0], _viewport[1], _viewport[2], _viewport[3]};
+    if (viewport)
+        glGetIntegerv(GL_VIEWPORT, v);
+    gl.glUniform4f(program.getUniformLocation(name), float(v[0]), float(v[1]),
+                   2.0f / float(std::max(1, v[2])), 2.0f / float(std::max(1, v[3])));
 }
 
 LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const
@@ -388,11 +445,10 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
         base->setMode(GL_BLEND, Never);
         state.pushStateSet(base);
         _targets->bind(state);
-        if (_passes == 0)
-            clear(state);
+        clear(state);
         draw();
         state.popStateSet();
-        answerPick(state);
+        readPicked(state);
     }
     composite(renderInfo);
     ++_passes;
@@ -407,23 +463,25 @@ void LabelPass::clear(osg::State& state) const
     const auto& gl = Extensions::instance();
     const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
     gl.clearBufferuiv(GL_COLOR, 1, nothing);
+    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view
+    // already.
     const GLfloat far = 1.0f;
-    gl.clearBufferfv(GL_DEPTH, 0, &far);
+    if (_passes == 0)
+        gl.clearBufferfv(GL_DEPTH, 0, &far);
     state.popStateSet();
 }
 
-void LabelPass::answerPick(osg::State& state)
+void LabelPass::readPicked(osg::State& state)
 {
-    const std::optional<LabelPick::Point> point = _resources->pick.takeQuestion();
-    if (!point)
+    if (!_asked)
         return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
     const unsigned int index =
-        _targets->readIndex(state, pixel(point->x, _viewport[0], _viewport[2]),
-                            pixel(point->y, _viewport[1], _viewport[3]));
-    _resources->pick.answer(
-        index == LabelTargets::Nothing ? 0 : _resources->objects.getIdentifier(index));
+        _targets->readIndex(state, pixel(_asked->x, _viewport[0], _viewport[2]),
+                            pixel(_asked->y, _viewport[1], _viewport[3]));
+    if (index != LabelTargets::Nothing)
+        _picked = _resources->objects.getIdentifier(index);
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)
@@ -431,8 +489,13 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     osg::State& state = *renderInfo.getState();
     const int samples = _target.samples;
     osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(*_resources->programs.getComposite(
-        _languageVersion, samples, _isPaged, _resources->settings.texCoord >= 0, _target.hasDepth));
+        _languageVersion, samples,
+        _resources->getDefines(_isPaged, _resources->objects.getShapes())));
     _targets->setFrames(state, _frames.data(), _frames.size() * sizeof(Frame));
+    pass->addUniform(
+        new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
+                                                         2.0f / float(std::max(1, _viewport[2])),
+                                                         2.0f / float(std::max(1, _viewport[3])))));
     pass->merge(*_targets->getStateSet());
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));
@@ -465,7 +528,14 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     state.popStateSet();
 }
 
-void LabelPass::drawn(osg::RenderInfo&) {}
+void LabelPass::drawn(osg::RenderInfo&)
+{
+    // Where nothing labelled is in view nothing is under the point either.
+    if (_resources && !_asked)
+        _asked = _resources->pick.takeQuestion();
+    if (_asked)
+        _resources->pick.answer(_picked);
+}
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
 {

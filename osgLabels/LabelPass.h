@@ -8,9 +8,11 @@
 #include <osgMultiRender/SurfaceFrame.h>
 
 #include <osg/Matrixd>
+#include <osg/Viewport>
 
 #include <array>
 #include <map>
+#include <optional>
 #include <unordered_map>
 
 namespace osgLabels
@@ -19,11 +21,13 @@ namespace osgLabels
 /// Bits of SurfaceKey::output.
 enum OutputBits : std::uint32_t
 {
-    Diverted = 1,   ///< Writes the targets of the first pass.
-    Labelled = 2,   ///< Has an object record.
-    OwnProgram = 4, ///< The record's index is a uniform, not an attribute.
-    Paged = 8,      ///< Buffers are 2D arrays.
-    TexCoords = 16, ///< Texture coordinates may place the text: of the unit from bit 8.
+    Diverted = 1,      ///< Writes the targets of the first pass.
+    Labelled = 2,      ///< Has an object record.
+    IndexUniform = 4,  ///< The record's index is a uniform, not an attribute.
+    Paged = 8,         ///< Buffers are 2D arrays.
+    Proportional = 32, ///< Letters have widths of their own.
+    Outlined = 64,     ///< Letters have outlines.
+    TexCoords = 16,    ///< Texture coordinates may place the text: of the unit from bit 8.
     UnitShift = 8
 };
 
@@ -69,6 +73,7 @@ private:
     {
         const osg::RefMatrix* modelview = nullptr;
         const osg::RefMatrix* projection = nullptr;
+        const osg::Viewport* viewport = nullptr;
         GLint recordBase = 0;
         bool isSet = false;
     };
@@ -77,15 +82,19 @@ private:
                       osgMultiRender::SurfaceSnippet& snippet) const;
     static void addIndex(const osgMultiRender::SurfaceKey& key,
                          osgMultiRender::SurfaceSnippet& snippet);
-    static void addLabel(const osgMultiRender::SurfaceKey& key,
-                         osgMultiRender::SurfaceSnippet& snippet);
+    void addLabel(const osgMultiRender::SurfaceKey& key,
+                  osgMultiRender::SurfaceSnippet& snippet) const;
     Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const;
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
     /// Of the leaf's frame among those of this view; negative where rays are parallel.
     int numberOf(const osgUtil::RenderLeaf& leaf);
+    /// Whether the leaf is drawn into the viewport of the view, not into one of its own.
+    bool isInView(const osgMultiRender::SurfaceState& state) const;
+    void setViewport(const osg::GLExtensions& gl, const osg::Program::PerContextProgram& program,
+                     const osg::Viewport* viewport) const;
     void clear(osg::State& state) const;
     std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
-    void answerPick(osg::State& state);
+    void readPicked(osg::State& state);
     void composite(osg::RenderInfo& renderInfo);
     void makeUnder(osg::State& state);
 
@@ -102,6 +111,8 @@ private:
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;
     std::map<std::pair<const osg::RefMatrix*, const osg::RefMatrix*>, int> _frameNumbers;
+    std::optional<LabelPick::Point> _asked;
+    std::uint32_t _picked = 0; ///< What lies there, as far as is drawn.
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

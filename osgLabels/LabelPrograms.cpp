@@ -30,18 +30,12 @@ std::string fragmentText(const std::string& file, const char* builtIn)
     return textOf(osg::Shader::FRAGMENT, file, builtIn);
 }
 
-std::string tableText(bool isPaged)
-{
-    return (isPaged ? "#define OSGLABELS_PAGED\n" : "") +
-           fragmentText("labelTable.glsl", shaders::labelTable_glsl) +
-           fragmentText("coverage.glsl", shaders::coverage_glsl);
-}
-
 } // namespace
 
-std::string LabelSources::locate(bool isPaged)
+std::string LabelSources::locate(const std::string& defines)
 {
-    return tableText(isPaged) + placementSource() +
+    return defines + fragmentText("labelTable.glsl", shaders::labelTable_glsl) +
+           fragmentText("coverage.glsl", shaders::coverage_glsl) + placementSource() +
            fragmentText("locate.glsl", shaders::locate_glsl);
 }
 
@@ -60,12 +54,12 @@ std::string LabelSources::ink()
     return fragmentText("ink.glsl", shaders::ink_glsl);
 }
 
-const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples, bool isPaged,
-                                                 bool isTextured, bool hasDepth)
+const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samples,
+                                                 const std::string& defines)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     osg::ref_ptr<osg::StateSet>& stateSet =
-        _composites[{int(languageVersion * 100.0f), samples, isPaged, isTextured, hasDepth}];
+        _composites[{int(languageVersion * 100.0f), samples, defines}];
     if (stateSet)
         return stateSet.get();
     constexpr auto on = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
@@ -78,16 +72,14 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
                                                               shaders::screen_vert)));
     program->addShader(new osg::Shader(
         osg::Shader::FRAGMENT, version + "#define OSGLABELS_SAMPLES " + std::to_string(samples) +
-                                   "\n" + (isTextured ? "#define OSGLABELS_TEXTURED\n" : "") +
-                                   LabelSources::locate(isPaged) + LabelSources::ink() +
+                                   "\n" + LabelSources::locate(defines) + LabelSources::ink() +
                                    fragmentText("composite.frag", shaders::composite_frag)));
     program->setThreadSafeRefUnref(true);
     stateSet = new osg::StateSet;
     stateSet->setThreadSafeRefUnref(true);
     stateSet->setAttributeAndModes(program, on);
     // The result lies at the surfaces' own depths, among those of siblings.
-    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, true),
-                                   hasDepth ? on : off);
+    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), on);
     for (GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
                         GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
         stateSet->setMode(mode, off);

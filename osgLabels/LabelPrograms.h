@@ -17,9 +17,9 @@ struct LabelSources
 {
     /// Declares osgLabels_writeSurface(): the first pass.
     static std::string surface();
-    /// Declares osgLabels_locate(): where on its label a pixel lies. `isPaged`: buffers are 2D
-    /// arrays.
-    static std::string locate(bool isPaged);
+    /// Declares osgLabels_locate(): where on its label a pixel lies. `defines` come first: see
+    /// LabelResources::getDefines().
+    static std::string locate(const std::string& defines);
     /// Declares osgLabels_direct(): the colour of a surface that is drawn in the view.
     static std::string direct();
     /// Declares osgLabels_over(): the colour of a surface with its label.
@@ -30,15 +30,14 @@ struct LabelSources
 class LabelPrograms
 {
 public:
-    /// Program and state of the pass, with OVERRIDE, for targets of so many samples; `isTextured`:
-    /// with texture coordinates. `hasDepth`: the view has a depth buffer to test with.
-    const osg::StateSet* getComposite(float languageVersion, int samples, bool isPaged,
-                                      bool isTextured, bool hasDepth);
+    /// Program and state of the pass, with OVERRIDE, for targets of so many samples.
+    const osg::StateSet* getComposite(float languageVersion, int samples,
+                                      const std::string& defines);
 
     void releaseGLObjects(osg::State* state);
 
 private:
-    using Key = std::tuple<int, int, bool, bool, bool>;
+    using Key = std::tuple<int, int, std::string>;
     std::mutex _mutex;
     std::map<Key, osg::ref_ptr<osg::StateSet>> _composites;
 };

@@ -131,6 +131,23 @@ void LabelResources::update(osg::State& state, osg::StateSet& into)
     _atlas->apply(into, GlyphsUnit);
 }
 
+bool LabelResources::hasOutlines() const
+{
+    return widestOutline(settings) > 0.0f;
+}
+
+std::string LabelResources::getDefines(bool isPaged, std::uint32_t shapes) const
+{
+    std::string defines = _atlas->getDefines();
+    if (isPaged)
+        defines += "#define OSGLABELS_PAGED\n";
+    if (settings.texCoord >= 0)
+        defines += "#define OSGLABELS_TEXTURED\n";
+    if (shapes != ~0u)
+        defines += "#define OSGLABELS_SHAPES " + std::to_string(shapes) + "\n";
+    return defines;
+}
+
 bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
 {
     if (!collector)

@@ -36,6 +36,10 @@ public:
     /// Texts, glyphs and records on the GPU, as they are now; for the current context.
     void update(osg::State& state, osg::StateSet& into);
 
+    /// What shaders depend on, as GLSL. `shapes`: bits of those that have to be known.
+    std::string getDefines(bool isPaged, std::uint32_t shapes) const;
+    bool hasOutlines() const;
+
     /// UTF-8. False for an identifier that no object has.
     bool setText(std::uint32_t identifier, const std::string& text);
     std::string getText(std::uint32_t identifier) const;

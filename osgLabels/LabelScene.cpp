@@ -49,8 +49,11 @@ std::string LabelScene::getText(std::uint32_t identifier) const
 
 void LabelScene::pick(double x, double y)
 {
-    if (const std::shared_ptr<LabelResources> resources = getResources())
+    const std::shared_ptr<LabelResources> resources = getResources();
+    if (resources && _isShown)
         resources->pick.ask({x, y});
+    else if (resources)
+        resources->pick.answer(0);
 }
 
 std::optional<LabelScene::Picked> LabelScene::takePicked()

@@ -179,6 +179,7 @@ void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
         return;
     _prepared = true;
     osg::State& state = *renderInfo.getState();
+    SurfaceVariantCache::instance().attach(state.getContextID());
     // After the stage of a camera drawn before, osg::State may have gone back to its default.
     if (const osg::Viewport* viewport = _stage->getViewport())
     {

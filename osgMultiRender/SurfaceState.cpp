@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/SurfaceState.h>
 
+#include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Multisample>
 #include <osg/PointSprite>
@@ -18,6 +19,9 @@
 #endif
 #ifndef GL_COLOR_SUM
 #define GL_COLOR_SUM 0x8458
+#endif
+#ifndef GL_FRAMEBUFFER_SRGB
+#define GL_FRAMEBUFFER_SRGB 0x8DB9
 #endif
 
 namespace osgMultiRender
@@ -61,6 +65,12 @@ std::uint32_t bitOfMode(osg::StateAttribute::GLMode mode)
         return SurfaceState::AlphaToCoverage;
     case GL_POLYGON_OFFSET_FILL:
         return SurfaceState::PolygonOffset;
+    case GL_STENCIL_TEST:
+        return SurfaceState::StencilTest;
+    case GL_COLOR_LOGIC_OP:
+        return SurfaceState::ColorLogicOp;
+    case GL_FRAMEBUFFER_SRGB:
+        return SurfaceState::FramebufferSRGB;
     case GL_VERTEX_PROGRAM_ARB:
     case GL_FRAGMENT_PROGRAM_ARB:
         return SurfaceState::AssemblyProgram;
@@ -118,6 +128,10 @@ int slotOfAttribute(osg::StateAttribute::Type type)
         return SurfaceState::Point;
     case osg::StateAttribute::DEPTH:
         return SurfaceState::Depth;
+    case osg::StateAttribute::COLORMASK:
+        return SurfaceState::ColorMask;
+    case osg::StateAttribute::VIEWPORT:
+        return SurfaceState::Viewport;
     default:
         return -1;
     }
@@ -262,6 +276,16 @@ bool SurfaceState::isOpaque() const
 {
     const auto* depth = static_cast<const osg::Depth*>(get(Depth));
     return isOn(DepthTest) && !isOn(Blend) && (!depth || depth->getWriteMask());
+}
+
+bool SurfaceState::isCopyable() const
+{
+    const auto* depth = static_cast<const osg::Depth*>(get(Depth));
+    const auto* mask = static_cast<const osg::ColorMask*>(get(ColorMask));
+    return isOpaque() && !(_modes.on & (StencilTest | ColorLogicOp | FramebufferSRGB)) &&
+           (!depth || depth->getFunction() == osg::Depth::LESS) &&
+           (!mask || (mask->getRedMask() && mask->getGreenMask() && mask->getBlueMask() &&
+                      mask->getAlphaMask()));
 }
 
 std::vector<unsigned int> SurfaceState::getExtraLights(bool onlyOn) const

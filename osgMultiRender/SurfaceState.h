@@ -43,7 +43,10 @@ public:
         DepthTest = 1u << 25,
         AlphaTest = 1u << 26,
         AlphaToCoverage = 1u << 27,
-        PolygonOffset = 1u << 28 ///< GL_POLYGON_OFFSET_FILL.
+        PolygonOffset = 1u << 28, ///< GL_POLYGON_OFFSET_FILL.
+        StencilTest = 1u << 29,
+        ColorLogicOp = 1u << 30,
+        FramebufferSRGB = 1u << 31
     };
 
     /// Modes that are tracked for each texture unit.
@@ -71,6 +74,8 @@ public:
         Program,
         Point,
         Depth,
+        ColorMask,
+        Viewport,
         NumAttributes
     };
 
@@ -113,6 +118,10 @@ public:
 
     /// Hides what lies behind it: it is not blended, and tests and writes depth.
     bool isOpaque() const;
+
+    /// It is opaque, and what a pixel shows in the end can be found elsewhere and put into the
+    /// view by a test of depth LESS: nothing else of the view's buffers is read, kept or written.
+    bool isCopyable() const;
 
     /// Whether a StateSet of the path holds a Program with PROTECTED.
     bool isProgramProtected() const { return _programProtected; }

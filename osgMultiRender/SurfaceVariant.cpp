@@ -4,6 +4,9 @@
 #include <osgMultiRender/ProgramWrap.h>
 #include <osgMultiRender/SurfaceSource.h>
 
+#include <osg/ContextData>
+#include <osg/GLObjects>
+#include <osg/State>
 #include <osg/Shader>
 #include <osg/Uniform>
 
@@ -88,10 +91,42 @@ void SurfaceVariant::finish(const SurfaceSnippet& snippet)
                                     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
 }
 
+namespace
+{
+
+/// Releases what the cache has in a context that is closed.
+class ClosingContext : public osg::GraphicsObjectManager
+{
+public:
+    explicit ClosingContext(unsigned int contextID)
+        : osg::GraphicsObjectManager("osgMultiRender::SurfaceVariantCache", contextID)
+    {
+    }
+    void flushDeletedGLObjects(double, double&) override {}
+    void flushAllDeletedGLObjects() override {}
+    void deleteAllGLObjects() override { release(); }
+    void discardAllGLObjects() override { release(); }
+
+private:
+    void release() const
+    {
+        osg::ref_ptr<osg::State> number = new osg::State; // says which context, nothing else
+        number->setContextID(_contextID);
+        SurfaceVariantCache::instance().releaseGLObjects(number);
+    }
+};
+
+} // namespace
+
 SurfaceVariantCache& SurfaceVariantCache::instance()
 {
     static SurfaceVariantCache cache;
     return cache;
+}
+
+void SurfaceVariantCache::attach(unsigned int contextID)
+{
+    osg::get<ClosingContext>(contextID);
 }
 
 void SurfaceVariantCache::resizeGLObjectBuffers(unsigned int maxSize)

@@ -92,6 +92,9 @@ public:
         return variant;
     }
 
+    /// The context draws with variants. They belong to no scene, so nobody else releases them when
+    /// it is closed; the next one with its number would take its programs for its own.
+    void attach(unsigned int contextID);
     void resizeGLObjectBuffers(unsigned int maxSize);
     void releaseGLObjects(osg::State* state) const;
 

@@ -7,7 +7,7 @@ vec4 osgLabels_direct(vec4 color, int index, vec2 texCoord, vec4 change)
 {
     osgLabels_Surface surface;
     surface.parallel = osgLabels_frame < 0;
-    surface.distance = surface.parallel ? gl_FragCoord.z : 1.0 / gl_FragCoord.w;
+    surface.distance = surface.parallel ? (gl_FragCoord.z - gl_DepthRange.near) / gl_DepthRange.diff : 1.0 / gl_FragCoord.w;
     surface.dx = dFdx(surface.distance);
     surface.dy = dFdy(surface.distance);
     osgLabels_Object object = osgLabels_objectOf(uint(index));

@@ -16,7 +16,7 @@ struct osgLabels_Frame
     vec3 world;     // the world's up
 };
 
-// What is here: 1 / gl_FragCoord.w, or gl_FragCoord.z where rays are parallel, and its changes.
+// What is here: 1 / gl_FragCoord.w, or depth from 0 to 1 where rays are parallel, and its changes.
 struct osgLabels_Surface
 {
     bool parallel;

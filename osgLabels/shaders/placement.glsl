@@ -209,23 +209,33 @@ osgLabels_Line osgLabels_textured(osgLabels_View view, vec3 p, vec3 size, float 
     return line;
 }
 
+// A scene's second pass knows the shapes that it has, by bits; all others all. A constant, so that
+// compilers leave out what is behind it.
+#ifndef OSGLABELS_SHAPES
+#define OSGLABELS_SHAPES 0x7ff
+#endif
+
+bool osgLabels_is(uint shape, uint which)
+{
+    return (uint(OSGLABELS_SHAPES) >> which & 1u) != 0u && shape == which;
+}
+
 osgLabels_Line osgLabels_lineOf(osgLabels_View view, uint shape, vec3 p, vec3 normal, vec3 size,
                                 float width)
 {
     float flatness = abs(normal.z) / max(length(normal), osgLabels_Tiny);
-    if (shape == 2u)
-        return osgLabels_frustum(view, p, flatness, vec3(size.x, size.x, size.z), width);
-    if (shape == 3u)
+    if (osgLabels_is(shape, 2u) || osgLabels_is(shape, 5u))
+        return osgLabels_frustum(view, p, flatness,
+                                 vec3(size.x, shape == 2u ? size.x : size.y, size.z), width);
+    if (osgLabels_is(shape, 3u))
         return osgLabels_sphere(view, p, size.x, width);
-    if (shape == 4u)
+    if (osgLabels_is(shape, 4u))
         return osgLabels_dish(view, p, flatness, size, width);
-    if (shape == 5u)
-        return osgLabels_frustum(view, p, flatness, size, width);
-    if (shape == 6u)
+    if (osgLabels_is(shape, 6u))
         return osgLabels_pyramid(view, p, flatness, size, width);
-    if (shape == 7u)
+    if (osgLabels_is(shape, 7u))
         return osgLabels_torus(view, p, size, width);
-    if (shape == 8u)
+    if (osgLabels_is(shape, 8u))
         normal = vec3(0.0f, 0.0f, 1.0f);
     return osgLabels_box(view, p, normal, size, width);
 }

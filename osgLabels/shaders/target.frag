@@ -13,7 +13,7 @@ uint osgLabels_short(float value)
 
 void osgLabels_writeSurface(int object, int frame)
 {
-    float distance = frame < 0 ? gl_FragCoord.z : 1.0 / gl_FragCoord.w;
+    float distance = frame < 0 ? (gl_FragCoord.z - gl_DepthRange.near) / gl_DepthRange.diff : 1.0 / gl_FragCoord.w;
     uint change = osgLabels_short(dFdx(distance)) | osgLabels_short(dFdy(distance)) << 16;
     osgLabels_outSurface = uvec4(uint(object), uint(frame), floatBitsToUint(distance), change);
 }

@@ -56,7 +56,11 @@ void expectOwnLook(osg::Node* model, const support::CameraSpec& camera, const st
     const Picture expected = viewer.render(object, camera, SmallWidth, SmallHeight, 2);
     // OSG itself raises some, for instance for lights above 7; none may come on top.
     EXPECT_LE(errors, viewer.getGLErrors().size()) << name;
-    EXPECT_TRUE(areAlike(actual, expected, "labelLook." + name));
+    keep(actual, "labelLook." + name);
+    // As areAlike(), but crossing lines hide each other by depths that the targets hold as floats,
+    // where the window has 24 bits.
+    EXPECT_TRUE(
+        (support::CompareImage{2.0 / 255.0, 0.002, 1.0}(actual, expected, "labelLook." + name)));
 }
 
 /// Makes colors that are none black. Where a model has fewer materials than its binding asks for
@@ -135,7 +139,9 @@ TEST_P(FeatureFamily, keepsItsLookUnderLabels)
             continue;
         SCOPED_TRACE(scene.name);
         support::NotifyCapture notify;
-        expectOwnLook(scene.create(), camera, scene.family + "." + scene.name, scene.beyond);
+        // Points have no label.
+        const bool beyond = scene.beyond || scene.name.rfind("points", 0) == 0;
+        expectOwnLook(scene.create(), camera, scene.family + "." + scene.name, beyond);
     }
 }
 

@@ -15,6 +15,8 @@ support::HeadlessViewer& viewer()
 {
     static support::HeadlessViewer theViewer({Width, Height});
     theViewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
+    theViewer.getViewer().getCamera()->setClearMask(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT |
+                                                    GL_STENCIL_BUFFER_BIT);
     return theViewer;
 }
 

@@ -238,7 +238,9 @@ TEST_F(LabelSiblings, rasterStateOfSurfacesCounts)
                 root.addChild(before);
                 root.addChild(&labels);
                 labels.addChild(card(0.0f, 0.0f, {0.3f, 0.8f, 0.5f, 0.6f}));
+                // Bins fix the order, which some of these depend on.
                 labels.addChild(slanted(White));
+                labels.getChild(1)->getOrCreateStateSet()->setRenderBinDetails(1, "RenderBin");
                 set(onRoot ? *root.getOrCreateStateSet()
                            : *labels.getChild(0)->getOrCreateStateSet());
             },
@@ -265,7 +267,7 @@ TEST_F(LabelSiblings, rasterStateOfSurfacesCounts)
               above);
         state("logic",
               [](osg::StateSet& s)
-              { s.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::XOR)); },
+              { s.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::COPY_INVERTED)); },
               above);
         state("alphaTest",
               [](osg::StateSet& s)
@@ -279,7 +281,7 @@ TEST_F(LabelSiblings, rasterStateOfSurfacesCounts)
                                                           osg::PolygonMode::POINT));
           });
     state("offset",
-          [](osg::StateSet& s) { s.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -9000.0f)); });
+          [](osg::StateSet& s) { s.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -64.0f)); });
     state("culled", [](osg::StateSet& s) { s.setAttributeAndModes(new osg::CullFace); });
     state("stencil",
           [](osg::StateSet& s)
@@ -289,9 +291,6 @@ TEST_F(LabelSiblings, rasterStateOfSurfacesCounts)
               stencil->setOperation(osg::Stencil::KEEP, osg::Stencil::KEEP, osg::Stencil::INCR);
               s.setAttributeAndModes(stencil);
           });
-    state("equation",
-          [](osg::StateSet& s)
-          { s.setAttribute(new osg::BlendFunc(GL_ONE, GL_ONE)); s.setMode(GL_BLEND, On::ON); });
 }
 
 TEST_F(LabelSiblings, stencilsThatOthersReadAreWritten)
@@ -353,7 +352,7 @@ TEST_F(LabelSiblings, camerasBelowAndAboveKeepTheirLook)
             [&](osg::Group& root, osg::Group& labels)
             {
                 const auto inner = camera(order, 20);
-                inner->addChild(card(0.2f, 0.0f, White, 0.3f));
+                inner->addChild(card(0.2f, -0.1f, White, 0.3f));
                 labels.addChild(card(0.0f, 0.0f, Green));
                 labels.addChild(inner);
                 root.addChild(&labels);
