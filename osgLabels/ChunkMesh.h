@@ -67,7 +67,7 @@ private:
     osg::ref_ptr<osg::Vec3Array> _normals = new osg::Vec3Array;
     osg::ref_ptr<osg::Array> _colors;
     std::array<osg::ref_ptr<osg::Array>, MeshLayout::Units> _texCoords;
-    osg::ref_ptr<osg::UIntArray> _objects = new osg::UIntArray;
+    osg::ref_ptr<osg::IntArray> _objects = new osg::IntArray;
     std::vector<std::uint32_t> _triangles, _quads;
 };
 

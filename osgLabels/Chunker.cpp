@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace osgLabels
 {
@@ -42,8 +43,9 @@ Chunks Chunker::chunk(osg::Group& group)
     for (unsigned int i = 0; i < group.getNumChildren(); ++i)
         if (const auto left = copy(*group.getChild(i)))
             _result.node->addChild(left);
-    for (auto& [key, items] : _buckets)
+    for (const Bucket& bucket : _buckets)
     {
+        const Key& key = bucket.key;
         // One group a StateSet, so that each has its say on the next as before. The last one is
         // that of the Geometries.
         osg::Group* parent = _result.node;
@@ -54,7 +56,9 @@ Chunks Chunker::chunk(osg::Group& group)
             parent->addChild(child);
             parent = child;
         }
-        split(items.begin(), items.end(), key, *parent);
+        Order order(bucket.items.size());
+        std::iota(order.begin(), order.end(), 0u);
+        split(order.begin(), order.end(), bucket, *parent);
     }
     _byKey.clear();
     _buckets.clear();
@@ -191,46 +195,47 @@ bool Chunker::gather(osg::Drawable& drawable)
     return true;
 }
 
-void Chunker::split(Items::iterator begin, Items::iterator end, const Key& key, osg::Group& parent)
+void Chunker::split(Order::iterator begin, Order::iterator end, const Bucket& bucket,
+                    osg::Group& parent)
 {
     std::size_t vertices = 0;
     osg::BoundingBoxd box;
-    for (auto item = begin; item != end; ++item)
+    for (auto i = begin; i != end; ++i)
     {
-        vertices += item->geometry->getVertexArray()->getNumElements();
-        box.expandBy(item->center);
+        vertices += bucket.items[*i].geometry->getVertexArray()->getNumElements();
+        box.expandBy(bucket.items[*i].center);
     }
     if (vertices <= _chunkVertices || end - begin < 2)
-        return build(begin, end, key, parent);
+        return build(begin, end, bucket, parent);
     const osg::Vec3d size = box._max - box._min;
     const int axis =
         size.x() >= size.y() ? (size.x() >= size.z() ? 0 : 2) : (size.y() >= size.z() ? 1 : 2);
-    std::stable_sort(begin, end,
-                     [axis](const Item& a, const Item& b)
-                     { return a.center[axis] < b.center[axis]; });
-    std::size_t half = 0;
-    auto middle = begin;
-    for (; middle != end - 1 && half < vertices / 2; ++middle)
-        half += middle->geometry->getVertexArray()->getNumElements();
-    middle = std::max(middle, begin + 1);
-    split(begin, middle, key, parent);
-    split(middle, end, key, parent);
+    const auto middle = begin + (end - begin) / 2;
+    std::nth_element(begin, middle, end,
+                     [&](std::uint32_t a, std::uint32_t b)
+                     { return bucket.items[a].center[axis] < bucket.items[b].center[axis]; });
+    split(begin, middle, bucket, parent);
+    split(middle, end, bucket, parent);
 }
 
-void Chunker::build(Items::iterator begin, Items::iterator end, const Key& key, osg::Group& parent)
+void Chunker::build(Order::iterator begin, Order::iterator end, const Bucket& bucket,
+                    osg::Group& parent)
 {
+    const Key& key = bucket.key;
+    std::sort(begin, end); // surfaces in one plane keep their order
     osg::BoundingBoxd box;
-    for (auto item = begin; item != end; ++item)
-        box.expandBy(item->center);
+    for (auto i = begin; i != end; ++i)
+        box.expandBy(bucket.items[*i].center);
     // Single precision is about this point: as exact as the Drawables' own coordinates were.
     const osg::Vec3d origin = box.center();
     ChunkMesh mesh(key.layout);
-    for (auto item = begin; item != end; ++item)
+    for (auto i = begin; i != end; ++i)
     {
-        const osg::Matrixd toChunk = item->matrix * osg::Matrixd::translate(-origin);
-        mesh.add(*item->geometry, toChunk, item->object);
-        if (item->object)
-            _result.objects.push_back({item->object, item->geometry, toChunk});
+        const Item& item = bucket.items[*i];
+        const osg::Matrixd toChunk = item.matrix * osg::Matrixd::translate(-origin);
+        mesh.add(*item.geometry, toChunk, item.object);
+        if (item.object)
+            _result.objects.push_back({item.object, item.geometry, toChunk});
     }
     const osg::ref_ptr<osg::Geometry> geometry = mesh.finish();
     geometry->setStateSet(key.state.back());

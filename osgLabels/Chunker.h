@@ -95,8 +95,11 @@ private:
     osg::StateSet* canonicalOfColored(osg::StateSet& stateSet);
     bool leaveOut(const std::string& why);
     Items& bucketOf(const Key& key);
-    void split(Items::iterator begin, Items::iterator end, const Key& key, osg::Group& parent);
-    void build(Items::iterator begin, Items::iterator end, const Key& key, osg::Group& parent);
+    using Order = std::vector<std::uint32_t>; ///< Indices of items.
+    void split(Order::iterator begin, Order::iterator end, const Bucket& bucket,
+               osg::Group& parent);
+    void build(Order::iterator begin, Order::iterator end, const Bucket& bucket,
+               osg::Group& parent);
 
     struct ByContent
     {

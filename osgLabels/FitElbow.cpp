@@ -11,9 +11,9 @@ namespace osgLabels
 namespace
 {
 
-constexpr double Tolerance = 3e-3; ///< Of the tube's radius.
-constexpr double LeastCover = 0.7; ///< Of the exact tube's area.
-constexpr std::size_t MostSamples = 400;
+constexpr double Tolerance = 3e-3;       ///< Of the tube's radius.
+constexpr double LeastCover = 0.7;       ///< Of the exact tube's area.
+constexpr std::size_t MostSamples = 400; ///< Points and, twice as many, facets for a first guess.
 
 struct Ring
 {
@@ -46,6 +46,12 @@ std::optional<glm::dvec3> solve(const glm::dmat3& m, const glm::dvec3& right)
     return glm::inverse(m) * right;
 }
 
+/// From facet to facet for a guess; odd, so that it meets both triangles of quads.
+std::size_t strideOf(const FitMesh& mesh)
+{
+    return (mesh.facets.size() / (2 * MostSamples)) | 1u;
+}
+
 /// A ring with an axis of that direction. The normals of what turns around an axis meet the axis,
 /// which gives its place; then the profile's circle is one of least squares. Facets that face along
 /// `along` too much may be flat ends, which do not turn, and are left out.
@@ -57,8 +63,10 @@ std::optional<Ring> guessRing(const FitMesh& mesh, const std::vector<glm::dvec3>
     glm::dmat3 m(0.0);
     m[2][2] = 1.0;
     glm::dvec3 right(0.0);
-    for (const FitMesh::Facet& facet : mesh.facets)
+    const std::size_t stride = strideOf(mesh);
+    for (std::size_t i = 0; i < mesh.facets.size(); i += stride)
     {
+        const FitMesh::Facet& facet = mesh.facets[i];
         if (std::abs(glm::dot(facet.normal, along)) > 0.6)
             continue;
         const glm::dvec3 n = facet.normal * frame, p = facet.middle * frame;
@@ -184,12 +192,14 @@ bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, cons
     {
         bool onTube = true, atStart = true, atEnd = true;
         glm::dvec2 way[3];
+        glm::dvec3 outward[3];
         for (int k = 0; k != 3; ++k)
         {
             const glm::dvec3& point = mesh.points[facet.corners[k]];
             const ByRing at(ring, point);
             onTube = onTube && std::abs(at.across - ring.tube) <= tolerance;
             way[k] = {at.rho - ring.radius, at.z};
+            outward[k] = at.outward;
             const glm::dvec3 p = (point - ring.center) * frame;
             double angle = std::atan2(p.y, p.x) - arc.x;
             angle -= glm::two_pi<double>() * std::floor((angle + 0.1) / glm::two_pi<double>());
@@ -201,7 +211,9 @@ bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, cons
         if (!onTube)
             return false;
         for (int k = 0; k != 3; ++k)
-            if (glm::dot(way[k], way[(k + 1) % 3]) < 0.2 * ring.tube * ring.tube)
+            // Less than a fifth of a circle from corner to corner, around the tube and along it.
+            if (glm::dot(way[k], way[(k + 1) % 3]) < 0.2 * ring.tube * ring.tube ||
+                glm::dot(outward[k], outward[(k + 1) % 3]) < 0.25)
                 return false;
         area += facet.area;
     }
@@ -223,8 +235,10 @@ std::vector<glm::dvec3> sampled(const std::vector<glm::dvec3>& points)
 std::optional<glm::dvec3> bendAxis(const FitMesh& mesh, const glm::dvec3& along)
 {
     glm::dvec3 side(0.0);
-    for (const FitMesh::Facet& facet : mesh.facets)
+    const std::size_t stride = strideOf(mesh);
+    for (std::size_t i = 0; i < mesh.facets.size(); i += stride)
     {
+        const FitMesh::Facet& facet = mesh.facets[i];
         const double lean = glm::dot(facet.normal, along);
         if (std::abs(lean) < 0.6)
             side += facet.area / mesh.area * lean * glm::dot(facet.middle - mesh.centroid, along) *
@@ -283,7 +297,8 @@ std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm:
 
 std::optional<FittedShape> fitElbow(const FitMesh& mesh)
 {
-    if (mesh.facets.size() < 10)
+    // Boxy things are many, and no bends.
+    if (mesh.facets.size() < 10 || (!mesh.curved && mesh.directions.size() < 5))
         return std::nullopt;
     const std::vector<glm::dvec3> samples = sampled(mesh.points);
     for (int i = 0; i != 3; ++i)

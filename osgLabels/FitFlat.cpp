@@ -77,18 +77,21 @@ double toleranceOf(const FitMesh& mesh, double half)
 bool isExtruded(const FitMesh& mesh, const glm::dmat3& frame)
 {
     const glm::dvec3& z = frame[2];
-    const Extent extent(mesh.points, frame);
-    const double tolerance = toleranceOf(mesh, extent.half().z);
     double sides = 0.0;
     for (const FitMesh::Facet& facet : mesh.facets)
     {
         const double cosine = std::abs(glm::dot(facet.normal, z));
         if (cosine < Perpendicular)
             sides += facet.area;
-        else if (cosine < 0.999 ||
-                 !liesAtEnd(mesh, facet, z, extent.low.z, extent.high.z, tolerance))
+        else if (cosine < 0.999)
             return false;
     }
+    const Extent extent(mesh.points, frame);
+    const double tolerance = toleranceOf(mesh, extent.half().z);
+    for (const FitMesh::Facet& facet : mesh.facets)
+        if (std::abs(glm::dot(facet.normal, z)) >= Perpendicular &&
+            !liesAtEnd(mesh, facet, z, extent.low.z, extent.high.z, tolerance))
+            return false;
     return sides > 1e-6 * mesh.area;
 }
 

@@ -22,26 +22,12 @@ constexpr double LeastSphereCover = 0.5;
 
 /// The mesh around an axis through its surface's centroid: what turns around an axis has its
 /// centroid there.
-struct Profile
+class Profile
 {
+public:
     Profile(const FitMesh& fitMesh, const glm::dvec3& axis)
         : mesh(fitMesh), frame(frameAround(axis)), center(fitMesh.centroid)
     {
-        low = 1e300;
-        high = -1e300;
-        for (const glm::dvec3& point : mesh.points)
-        {
-            const double z = glm::dot(point - center, frame[2]);
-            low = std::min(low, z);
-            high = std::max(high, z);
-        }
-    }
-
-    /// Distance from the axis, and along it.
-    glm::dvec2 at(const glm::dvec3& point) const
-    {
-        const glm::dvec3 p = (point - center) * frame;
-        return {std::hypot(p.x, p.y), p.z};
     }
 
     /// Whether as much of the surface faces one way as any other around the axis.
@@ -52,15 +38,27 @@ struct Profile
         return std::hypot(turned[0][0] - turned[1][1], 2.0 * turned[0][1]) <= 0.05 * sum;
     }
 
+    /// Reads the points.
+    void prepare()
+    {
+        around.reserve(mesh.points.size());
+        at.reserve(mesh.points.size());
+        for (const glm::dvec3& point : mesh.points)
+        {
+            const glm::dvec3 p = (point - center) * frame;
+            around.emplace_back(p.x, p.y);
+            at.emplace_back(std::sqrt(p.x * p.x + p.y * p.y), p.z);
+            low = std::min(low, p.z);
+            high = std::max(high, p.z);
+        }
+    }
+
     double widestAt(double z, double tolerance) const
     {
         double widest = 0.0;
-        for (const glm::dvec3& point : mesh.points)
-        {
-            const glm::dvec2 p = at(point);
+        for (const glm::dvec2& p : at)
             if (std::abs(p.y - z) <= tolerance)
                 widest = std::max(widest, p.x);
-        }
         return widest;
     }
 
@@ -75,26 +73,20 @@ struct Profile
     const FitMesh& mesh;
     glm::dmat3 frame;
     glm::dvec3 center;
-    double low, high;
+    std::vector<glm::dvec2> around; ///< Of each point: its place across the axis.
+    std::vector<glm::dvec2> at;     ///< Its distance from the axis, and its place along it.
+    double low = 1e300, high = -1e300;
 };
 
 /// Whether the facet's corners are close enough together around the axis.
 bool stepsAround(const Profile& profile, const FitMesh::Facet& facet, double tolerance)
 {
-    glm::dvec2 way[3];
-    double length[3];
     for (int k = 0; k != 3; ++k)
     {
-        const glm::dvec3 p =
-            (profile.mesh.points[facet.corners[k]] - profile.center) * profile.frame;
-        way[k] = {p.x, p.y};
-        length[k] = glm::length(way[k]);
-    }
-    for (int k = 0; k != 3; ++k)
-    {
-        const int next = (k + 1) % 3;
-        if (length[k] > tolerance && length[next] > tolerance &&
-            glm::dot(way[k], way[next]) < WidestStep * length[k] * length[next])
+        const std::uint32_t a = facet.corners[k], b = facet.corners[(k + 1) % 3];
+        const double from = profile.at[a].x, to = profile.at[b].x;
+        if (from > tolerance && to > tolerance &&
+            glm::dot(profile.around[a], profile.around[b]) < WidestStep * from * to)
             return false;
     }
     return true;
@@ -113,22 +105,18 @@ std::optional<FittedShape> fitFrustum(const Profile& profile)
     const double slope = (r1 - r0) / height;
     const auto isOnSide = [&](const glm::dvec2& p)
     { return std::abs(p.x - (r0 + slope * (p.y - profile.low))) <= tolerance; };
-    for (const glm::dvec3& point : profile.mesh.points)
-    {
-        const glm::dvec2 p = profile.at(point);
+    for (const glm::dvec2& p : profile.at)
         if (!isOnSide(p) && p.y - profile.low > endTolerance && profile.high - p.y > endTolerance)
             return std::nullopt;
-    }
     double side = 0.0;
     for (const FitMesh::Facet& facet : profile.mesh.facets)
     {
         bool onSide = true, flat = true;
         for (const std::uint32_t corner : facet.corners)
         {
-            const glm::dvec2 p = profile.at(profile.mesh.points[corner]);
+            const glm::dvec2& p = profile.at[corner];
             onSide = onSide && isOnSide(p);
-            flat = flat && std::abs(p.y - profile.at(profile.mesh.points[facet.corners[0]]).y) <=
-                               endTolerance;
+            flat = flat && std::abs(p.y - profile.at[facet.corners[0]].y) <= endTolerance;
         }
         if (!onSide || flat)
             continue;
@@ -162,9 +150,8 @@ std::optional<FittedShape> fitDish(const Profile& profile)
         return std::nullopt;
     const bool upsideDown = r1 > r0;
     const double base = upsideDown ? profile.high : profile.low;
-    for (const glm::dvec3& point : profile.mesh.points)
+    for (const glm::dvec2& p : profile.at)
     {
-        const glm::dvec2 p = profile.at(point);
         const double up = std::abs(p.y - base);
         const double off = std::abs(std::hypot(p.x / radius, up / height) - 1.0);
         if (off * std::min(radius, height) > tolerance && up > endTolerance)
@@ -203,9 +190,8 @@ std::optional<FittedShape> fitTorus(const Profile& profile)
 {
     // The circle of the profile: r² + z² = 2 R r + 2 z0 z + c, by least squares.
     double m[3][4] = {};
-    for (const glm::dvec3& point : profile.mesh.points)
+    for (const glm::dvec2& p : profile.at)
     {
-        const glm::dvec2 p = profile.at(point);
         const double row[4] = {2.0 * p.x, 2.0 * p.y, 1.0, glm::dot(p, p)};
         for (int i = 0; i != 3; ++i)
             for (int k = 0; k != 4; ++k)
@@ -220,8 +206,8 @@ std::optional<FittedShape> fitTorus(const Profile& profile)
     if (tube <= 20.0 * profile.mesh.noise || middle.x < 0.3 * tube)
         return std::nullopt;
     const double tolerance = 4.0 * profile.mesh.noise + Tolerance * tube;
-    for (const glm::dvec3& point : profile.mesh.points)
-        if (std::abs(glm::distance(profile.at(point), middle) - tube) > tolerance)
+    for (const glm::dvec2& p : profile.at)
+        if (std::abs(glm::distance(p, middle) - tube) > tolerance)
             return std::nullopt;
     for (const FitMesh::Facet& facet : profile.mesh.facets)
     {
@@ -229,9 +215,8 @@ std::optional<FittedShape> fitTorus(const Profile& profile)
             return std::nullopt;
         for (int k = 0; k != 3; ++k)
         {
-            const auto& points = profile.mesh.points;
-            const glm::dvec2 a = profile.at(points[facet.corners[k]]) - middle;
-            const glm::dvec2 b = profile.at(points[facet.corners[(k + 1) % 3]]) - middle;
+            const glm::dvec2 a = profile.at[facet.corners[k]] - middle;
+            const glm::dvec2 b = profile.at[facet.corners[(k + 1) % 3]] - middle;
             if (glm::dot(a, b) < 0.2 * tube * tube)
                 return std::nullopt;
         }
@@ -262,6 +247,10 @@ std::optional<FittedShape> fitSphere(const FitMesh& mesh)
     for (const glm::dvec3& point : mesh.points)
         if (std::abs(glm::distance(point, center) - radius) > tolerance)
             return std::nullopt;
+    // Three triangles and more in a plane are a side of a dodecahedron or the like: each direction
+    // has two sides of two.
+    if (!mesh.curved && mesh.facets.size() > 4 * mesh.directions.size())
+        return std::nullopt;
     glm::dvec3 balance(0.0);
     for (const FitMesh::Facet& facet : mesh.facets)
     {
@@ -303,7 +292,10 @@ std::vector<Profile> profilesOf(const FitMesh& mesh)
     std::vector<Profile> profiles;
     for (const glm::dvec3& axis : axes)
         if (Profile profile(mesh, axis); profile.isEven())
-            profiles.push_back(profile);
+        {
+            profile.prepare();
+            profiles.push_back(std::move(profile));
+        }
     return profiles;
 }
 

@@ -4,14 +4,15 @@
 #include <osg/Transform>
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
 
 namespace osgLabels
 {
 
 namespace
 {
-
-const osg::Vec3d direction(0.5023, 0.6469, 0.5737); // of no lattice
 
 void addPaths(const osg::Node& top, const osg::Node& node, osg::NodePath& below, std::size_t most,
               std::vector<osg::NodePath>& paths)
@@ -51,39 +52,76 @@ InstanceFinder::InstanceFinder(const osg::BoundingBox& box, const std::vector<os
     if (box.valid())
     {
         const osg::Vec3d extent = osg::Vec3d(box._max) - osg::Vec3d(box._min);
-        _size = extent.length();
+        _size = std::max(extent.length(), 1e-30);
         // Off the axes of all symmetries that a box may have, flat ones included.
         _point = osg::Vec3d(box.center()) + osg::Vec3d(0.31, 0.23, 0.41) * _size;
     }
-    _places.reserve(paths.size());
+    std::size_t buckets = 1;
+    while (buckets < paths.size())
+        buckets *= 2;
+    _buckets.assign(buckets + 1, 0);
+
+    std::vector<Place> places;
+    places.reserve(paths.size());
     for (std::size_t i = 0; i < paths.size(); ++i)
     {
         osg::Matrixd matrix;
         for (std::size_t node = 1; node < paths[i].size(); ++node)
             if (osg::Transform* transform = paths[i][node]->asTransform())
                 transform->computeLocalToWorldMatrix(matrix, nullptr);
-        const osg::Vec3d point = _point * matrix;
-        _places.push_back({point * direction, point, i});
+        places.push_back({_point * matrix, i});
+        ++_buckets[bucketOf(cellOf(places.back().point)) + 1];
     }
-    std::sort(_places.begin(), _places.end(),
-              [](const Place& a, const Place& b) { return a.key < b.key; });
+    std::partial_sum(_buckets.begin(), _buckets.end(), _buckets.begin());
+    std::vector<std::uint32_t> next(_buckets.begin(), _buckets.end() - 1);
+    _places.resize(places.size());
+    for (const Place& place : places)
+        _places[next[bucketOf(cellOf(place.point))]++] = place;
+}
+
+osg::Vec3d InstanceFinder::cellOf(const osg::Vec3d& point) const
+{
+    return {std::floor(point.x() / _size), std::floor(point.y() / _size),
+            std::floor(point.z() / _size)};
+}
+
+std::size_t InstanceFinder::bucketOf(const osg::Vec3d& cell) const
+{
+    std::uint64_t hash = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        std::uint64_t bits;
+        const double coordinate = cell[axis] + 0.0; // -0 is 0
+        std::memcpy(&bits, &coordinate, sizeof bits);
+        hash = (hash ^ bits) * 0xD6E8FEB86659FD93u;
+        hash ^= hash >> 32;
+    }
+    return hash & (_buckets.size() - 2);
 }
 
 std::size_t InstanceFinder::find(const osg::Matrixd& localToTop, double roundingError) const
 {
     const osg::Vec3d point = _point * localToTop;
-    const double key = point * direction;
     const double tolerance = 1e-6 * _size + roundingError;
+    if (_places.empty() || !(tolerance < _size))
+        return None;
+    const osg::Vec3d margin(tolerance, tolerance, tolerance);
+    const osg::Vec3d first = cellOf(point - margin), last = cellOf(point + margin);
     double best = tolerance * tolerance;
     std::size_t found = None;
-    for (auto place = std::lower_bound(_places.begin(), _places.end(), key - tolerance,
-                                       [](const Place&p, double k) { return p.key < k; });
-         place != _places.end() && place->key <= key + tolerance; ++place)
-        if (const double distance = (place->point - point).length2(); distance <= best)
-        {
-            best = distance;
-            found = place->path;
-        }
+    for (double x = first.x(); x <= last.x(); x += 1.0)
+        for (double y = first.y(); y <= last.y(); y += 1.0)
+            for (double z = first.z(); z <= last.z(); z += 1.0)
+            {
+                const std::size_t bucket = bucketOf({x, y, z});
+                for (std::uint32_t i = _buckets[bucket]; i < _buckets[bucket + 1]; ++i)
+                    if (const double distance = (_places[i].point - point).length2();
+                        distance <= best)
+                    {
+                        best = distance;
+                        found = _places[i].path;
+                    }
+            }
     return found;
 }
 

@@ -23,7 +23,7 @@ OSGLABELS_EXPORT std::uint64_t hashOf(const osg::NodePath& path, std::size_t cou
 /// Which instance of a Drawable it is that has a given matrix.
 ///
 /// A point of the Drawable that no rotation of it leaves in place is carried along; that is what
-/// tells instances apart. The search takes logarithmic time.
+/// tells instances apart. It is searched for in cells of the Drawable's size.
 class OSGLABELS_EXPORT InstanceFinder
 {
 public:
@@ -43,14 +43,17 @@ public:
 private:
     struct Place
     {
-        double key = 0.0; ///< Along a direction in which nothing is aligned.
         osg::Vec3d point;
         std::size_t path = 0;
     };
 
+    std::size_t bucketOf(const osg::Vec3d& cell) const;
+    osg::Vec3d cellOf(const osg::Vec3d& point) const;
+
     osg::Vec3d _point; ///< Local.
-    double _size = 0.0;
-    std::vector<Place> _places; ///< By key.
+    double _size = 1.0;
+    std::vector<Place> _places;          ///< By bucket.
+    std::vector<std::uint32_t> _buckets; ///< First place of each bucket, and the end.
 };
 
 } // namespace osgLabels

@@ -118,6 +118,7 @@ std::size_t LabelCollector::add(const osg::Group& group, const osg::Drawable& dr
     const std::size_t index = placeIn(_entries, _freeEntries);
     Entry entry;
     entry.drawable = &drawable;
+    entry.parents = drawable.getNumParents();
     for (const osg::NodePath& path : paths)
         entry.paths += hashOf(path, path.size());
     if (paths.size() == 1)
@@ -212,19 +213,13 @@ void LabelCollector::remove(std::size_t index)
     _freeEntries.push_back(index);
 }
 
-bool LabelCollector::isCurrent(const osg::Group& group, const Entry& entry, std::size_t& cost) const
+bool LabelCollector::isCurrent(const osg::Group& group, const Entry& entry,
+                               std::size_t mostPaths) const
 {
-    // Its objects hold it, too.
-    const std::size_t objects = entry.instances ? _instances[entry.instances]->objects.size() : 1;
-    cost += objects;
-    std::size_t own = 1;
-    if (!entry.instances)
-        own += entry.object ? 1 : 0;
-    else
-        for (const std::uint32_t object : _instances[entry.instances]->objects)
-            own += object ? 1 : 0;
-    if (std::size_t(entry.drawable->referenceCount()) <= own)
+    if (entry.drawable->getNumParents() != entry.parents)
         return false;
+    if (entry.instances && _instances[entry.instances]->objects.size() > mostPaths)
+        return true;
     std::uint64_t paths = 0;
     for (const osg::NodePath& path : pathsFrom(group, *entry.drawable, mostInstances))
         paths += hashOf(path, path.size());
@@ -238,7 +233,13 @@ void LabelCollector::sweep(const osg::Group& group, std::size_t count)
     for (std::size_t seen = 0; cost < count && seen < _entries.size(); ++seen)
     {
         _next = _next + 1 < _entries.size() ? _next + 1 : 0;
-        if (_entries[_next].drawable && !isCurrent(group, _entries[_next], cost))
+        const Entry& entry = _entries[_next];
+        if (!entry.drawable)
+            continue;
+        const std::size_t instances =
+            entry.instances ? _instances[entry.instances]->objects.size() : 1;
+        cost += instances > count ? 1 : instances;
+        if (!isCurrent(group, entry, count))
             remove(_next);
     }
 }

@@ -76,6 +76,7 @@ public:
     };
 
     /// Looks at the next `count` Drawables whether they are as they were; to be called each frame.
+    /// Of those with more instances than `count` only the number of parents is looked at.
     void sweep(const osg::Group& group, std::size_t count);
     /// Forgets all. Identifiers begin anew.
     void clear();
@@ -104,6 +105,7 @@ private:
         std::uint64_t paths = 0;     ///< Sum of the hashes of its paths.
         std::uint32_t object = 0;    ///< Of its only path.
         std::uint32_t instances = 0; ///< Index in _instances, 0 for none.
+        std::uint32_t parents = 0;   ///< Of the Drawable.
     };
     struct Instances
     {
@@ -130,7 +132,7 @@ private:
                            std::uint32_t object);
     void remove(std::size_t entry);
     void removeObject(std::uint32_t object);
-    bool isCurrent(const osg::Group& group, const Entry& entry, std::size_t& cost) const;
+    bool isCurrent(const osg::Group& group, const Entry& entry, std::size_t mostPaths) const;
 
     const std::shared_ptr<LabelTable> _table;
     const std::shared_ptr<const LabelSource> _source;

@@ -8,6 +8,7 @@
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/GLExtensions>
+#include <osg/Geometry>
 #include <osg/Viewport>
 
 #include <osgUtil/CullVisitor>
@@ -121,6 +122,9 @@ std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollecto
     const osg::Drawable& drawable = *leaf._drawable;
     if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
         return _resources->batches.getCount() ? 1 : 0;
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (geometry && geometry->getVertexAttribArray(indexAttribute)) // likewise
+        return 1;
     return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
@@ -190,6 +194,8 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
     }
     if (key.output && key.program)
         key.output |= OwnProgram;
+    if (number && !key.program && _resources->settings.texCoord >= 0)
+        key.output |= TexCoords | std::uint32_t(_resources->settings.texCoord) << UnitShift;
     if (key.output && _isPaged)
         key.output |= Paged;
 }
@@ -224,6 +230,13 @@ SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
                          "flat out int osgLabels_index;\n";
         snippet.vertexStatements = "    osgLabels_index = osgLabels_object + gl_InstanceID;\n";
         snippet.fragment += "flat in int osgLabels_index;\n";
+    }
+    if (key.output & TexCoords)
+    {
+        const std::string unit = std::to_string(_resources->settings.texCoord);
+        snippet.vertex += "out vec2 osgLabels_texCoord;\n";
+        snippet.vertexStatements += "    osgLabels_texCoord = gl_MultiTexCoord" + unit + ".xy;\n";
+        snippet.fragment += "#define OSGLABELS_TEXCOORD\nin vec2 osgLabels_texCoord;\n";
     }
     // Its records lie in a texture buffer of its own.
     snippet.fragment += LabelSources::locate(key.output & Paged, key.instance == 0);

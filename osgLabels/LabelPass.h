@@ -21,7 +21,9 @@ enum OutputBits : std::uint32_t
     Diverted = 1,   ///< Writes the targets of the first pass.
     Labelled = 2,   ///< Has an object record.
     OwnProgram = 4, ///< The record's index is a uniform, not an attribute.
-    Paged = 8       ///< Buffers are 2D arrays.
+    Paged = 8,      ///< Buffers are 2D arrays.
+    TexCoords = 16, ///< Texture coordinates may place the text: of the unit from bit 8.
+    UnitShift = 8
 };
 
 /// Writes places on labels beside the colours, then the glyphs, for one view of one frame.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelResources.h>
 
-#include <osgLabels/DrawableFit.h>
+#include <osgLabels/Chunker.h>
 #include <osgLabels/LabelUnits.h>
+#include <osgLabels/ObjectFit.h>
 
 #include <osg/Notify>
 
@@ -78,6 +79,8 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
         table, source, [this](const std::string& text) { return encode(text); }, next);
     collector->collect(group);
     fitNew();
+    if (settings.chunk)
+        makeChunks(group);
 }
 
 LabelTable::Codes LabelResources::encode(const std::string& text)
@@ -89,17 +92,34 @@ void LabelResources::fitNew()
 {
     if (!collector)
         return;
-    std::unordered_map<const osg::Drawable*, FittedShape> fits; // instances share theirs
+    std::unordered_map<const osg::Drawable*, ObjectRecord> records; // instances share theirs
     for (const std::uint32_t object : collector->takeNew())
     {
         const LabelCollector::Object found = collector->getObject(object);
         if (!found.drawable)
             continue;
-        auto fit = fits.find(found.drawable.get());
-        if (fit == fits.end())
-            fit = fits.emplace(found.drawable.get(), fitDrawable(*found.drawable)).first;
-        objects.set(object, fit->second.record(found.identifier));
+        auto record = records.find(found.drawable.get());
+        if (record == records.end())
+            record = records
+                         .emplace(found.drawable.get(),
+                                  recordOf(*found.drawable, settings.texCoord, found.identifier))
+                         .first;
+        record->second.identifier = found.identifier;
+        objects.set(object, record->second);
     }
+}
+
+void LabelResources::makeChunks(osg::Group& group)
+{
+    Chunker chunker([&](const osg::NodePath& path) { return collector->getObject(group, path); });
+    Chunks chunks = chunker.chunk(group);
+    for (const Chunks::Object& object : chunks.objects)
+        objects.set(object.object,
+                    recordOf(*object.geometry, object.localToChunk, settings.texCoord,
+                             collector->getObject(object.object).identifier));
+    OSG_INFO << "osgLabels::LabelScene: " << chunks.gathered << " of " << chunks.drawables
+             << " drawables are gathered in " << chunks.chunks << " chunks" << std::endl;
+    _chunks = chunks.node;
 }
 
 void LabelResources::update(osg::State& state, osg::StateSet& into)

@@ -41,6 +41,9 @@ public:
     std::string getText(std::uint32_t identifier) const;
     std::string getPath(osg::Group& group, std::uint32_t identifier) const;
 
+    /// What draws the subgraph with few large drawables; null where that is not asked for.
+    osg::Node* getChunks() const { return _chunks.get(); }
+
     std::size_t getAtlasBytes() const { return _atlas ? _atlas->getBytes() : 0; }
     void releaseGLObjects(osg::State* state);
 
@@ -57,9 +60,11 @@ public:
 
 private:
     LabelTable::Codes encode(const std::string& text);
+    void makeChunks(osg::Group& group);
 
     std::string _error;
     std::shared_ptr<GlyphSet> _glyphs;
+    osg::ref_ptr<osg::Node> _chunks;
     std::mutex _atlasMutex;
     osg::ref_ptr<GlyphAtlas> _atlas;
 };

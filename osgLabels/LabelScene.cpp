@@ -115,6 +115,15 @@ void LabelScene::releaseGLObjects(osg::State* state) const
         resources->releaseGLObjects(state);
 }
 
+void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
+{
+    const std::shared_ptr<LabelResources> resources = getResources();
+    if (resources && resources->getChunks())
+        resources->getChunks()->accept(visitor);
+    else
+        osgMultiRender::SurfaceGroup::cullSubgraph(visitor);
+}
+
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
     return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr);

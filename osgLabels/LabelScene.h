@@ -74,6 +74,7 @@ public:
 protected:
     ~LabelScene() override;
 
+    void cullSubgraph(osg::NodeVisitor& visitor) override;
     std::unique_ptr<osgMultiRender::SurfacePass> createPass() const override;
 
 private:

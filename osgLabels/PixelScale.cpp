@@ -11,34 +11,59 @@
 namespace osgLabels
 {
 
-PixelScale::PixelScale(osg::RenderInfo& renderInfo)
-    : _modelView(renderInfo.getState()->getModelViewMatrix())
+PixelScale::PixelScale(const osg::Matrixd& modelView, const osg::Matrixd& projection, double width,
+                       double height, double smallest)
+    : _modelView(modelView), _depth(modelView(0, 2), modelView(1, 2), modelView(2, 2)),
+      _depthOffset(modelView(3, 2)), _eyeScale(0.0), _perZ(projection(2, 3)),
+      _atZero(projection(3, 3)), _smallest(smallest)
 {
-    const osg::Matrixd& m = _modelView;
-    const osg::Matrixd& p = renderInfo.getState()->getProjectionMatrix();
-    _depth.set(m(0, 2), m(1, 2), m(2, 2));
-    _depthOffset = m(3, 2);
-    double largest = 0.0;
-    for (int axis = 0; axis < 3; ++axis)
-        largest = std::max(largest, osg::Vec3d(m(axis, 0), m(axis, 1), m(axis, 2)).length());
-    _eyeScale = largest;
-    _perZ = p(2, 3);
-    _atZero = p(3, 3);
+    for (int i = 0; i < 3; ++i)
+    {
+        const osg::Vec3d axis(modelView(i, 0), modelView(i, 1), modelView(i, 2));
+        _eyeScale = std::max(_eyeScale, axis.length());
+    }
+    const osg::Matrixd m = modelView * projection;
+    const auto column = [&m](int i) { return osg::Vec4d(m(0, i), m(1, i), m(2, i), m(3, i)); };
+    for (int axis = 0; axis < 2; ++axis)
+    {
+        _planes[2 * axis].set(column(3) + column(axis));
+        _planes[2 * axis + 1].set(column(3) - column(axis));
+    }
+    _planes[4].set(column(3));
+    _pixels =
+        0.5 * std::max(std::abs(projection(0, 0)) * width, std::abs(projection(1, 1)) * height);
+}
+
+PixelScale PixelScale::of(osg::RenderInfo& renderInfo)
+{
+    const osg::State& state = *renderInfo.getState();
     const osg::Camera* camera = renderInfo.getCurrentCamera();
-    const osg::Viewport* viewport = renderInfo.getState()->getCurrentViewport();
+    const osg::Viewport* viewport = state.getCurrentViewport();
     if (!viewport && camera)
         viewport = camera->getViewport();
-    const double width = viewport ? viewport->width() : 1000.0;
-    const double height = viewport ? viewport->height() : 1000.0;
-    _pixels = 0.5 * std::max(std::abs(p(0, 0)) * width, std::abs(p(1, 1)) * height);
-    if (camera && (camera->getCullingMode() & osg::CullSettings::SMALL_FEATURE_CULLING))
-        _smallest = camera->getSmallFeatureCullingPixelSize();
+    const bool small =
+        camera && (camera->getCullingMode() & osg::CullSettings::SMALL_FEATURE_CULLING);
+    return {state.getModelViewMatrix(), state.getProjectionMatrix(),
+            viewport ? viewport->width() : 1000.0, viewport ? viewport->height() : 1000.0,
+            small ? camera->getSmallFeatureCullingPixelSize() : 0.0};
 }
 
 double PixelScale::at(double z) const
 {
     const double w = _perZ * z + _atZero;
     return w > 0.0 ? _pixels * _eyeScale / w : std::numeric_limits<double>::infinity();
+}
+
+bool PixelScale::isOutside(const osg::Vec3d& center, double radius) const
+{
+    for (const osg::Plane& plane : _planes)
+    {
+        // In an orthographic view the eye's plane is none.
+        const double length = plane.getNormal().length();
+        if (length > 0.0 && plane.distance(center) < -radius * length)
+            return true;
+    }
+    return false;
 }
 
 bool PixelScale::isNear(const osg::Vec3d& center, double radius) const

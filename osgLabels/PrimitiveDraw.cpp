@@ -63,7 +63,7 @@ void PrimitiveRun::drawImplementation(osg::RenderInfo& renderInfo) const
     osg::GLBufferObject* buffer = indices.getOrCreateGLBufferObject(state.getContextID());
     arrays->bindElementBufferObject(buffer);
     const auto offset = reinterpret_cast<const char*>(buffer->getOffset(indices.getBufferIndex()));
-    forEachRange(PixelScale(renderInfo),
+    forEachRange(PixelScale::of(renderInfo),
                  [&](const Range& range)
                  {
                      const PrimitiveMeshes::Level& level = _meshes->level(range.level);

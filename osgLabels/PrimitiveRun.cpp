@@ -74,6 +74,16 @@ private:
 
 using Segment = osgUtil::LineSegmentIntersector;
 
+/// OSG keeps to itself what takes a visitor's segment to local coordinates.
+class SegmentFrame : public Segment
+{
+public:
+    static osg::Matrixd toLocal(osgUtil::IntersectionVisitor& visitor, const Segment& segment)
+    {
+        return getTransformation(visitor, segment.getCoordinateFrame());
+    }
+};
+
 /// Hits of `single` become hits of `run`, with triangles counted over the whole run.
 void rename(Segment::Intersections& hits, const osg::Drawable& single, osg::Drawable& run,
             unsigned int triangles)
@@ -225,9 +235,10 @@ void PrimitiveRun::forEachNear(const PixelScale& scale,
     {
         const ObjectRecord record = getRecord(i);
         const double reach = reachOf(record);
-        const double z = scale.depthOf({record.origin.x, record.origin.y, record.origin.z});
-        const double pixels = scale.at(z + reach * scale.eyeScale());
-        const bool drawn = !scale.isBehind(z, reach) && !(reach * pixels < scale.getSmallest());
+        const osg::Vec3d center(record.origin.x, record.origin.y, record.origin.z);
+        const double pixels = scale.at(scale.depthOf(center) + reach * scale.eyeScale());
+        const bool drawn =
+            !scale.isOutside(center, reach) && !(reach * pixels < scale.getSmallest());
         const float curve = curveOf(record);
         const int level = curve > 0.0f ? levelFor(float(curve * pixels)) : 0;
         if (range.count && (!drawn || level != range.level))
@@ -262,15 +273,17 @@ void PrimitiveRun::accept(osg::NodeVisitor& visitor)
         return;
     }
     visitor.pushOntoNodePath(this);
+    const osg::Matrixd toLocal = SegmentFrame::toLocal(*intersections, *segment);
+    const osg::Vec3d start = segment->getStart() * toLocal;
+    const osg::Vec3d along = segment->getEnd() * toLocal - start;
     const osg::ref_ptr<SingleObject> single = new SingleObject(_meshes->visitorMesh());
-    const osg::Vec3d start = segment->getStart(), along = segment->getEnd() - start;
     for (unsigned int i = 0; meets(start, along, getBoundingBox()) && i < _count; ++i)
     {
         const ObjectRecord record = getRecord(i);
         if (!meets(start, along, boxOf(record)))
             continue;
         single->set(record);
-        segment->intersect(*intersections, single);
+        intersections->apply(static_cast<osg::Drawable&>(*single));
         rename(segment->getIntersections(), *single, *this, i * getNumTriangles());
     }
     visitor.popFromNodePath();

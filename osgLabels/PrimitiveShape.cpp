@@ -130,8 +130,22 @@ ShapeBox localBox(const ObjectRecord& record)
 
 float reachOf(const ObjectRecord& record)
 {
-    const ShapeBox box = shapeBox(record);
-    return glm::length(glm::max(glm::abs(box.low), glm::abs(box.high)));
+    const glm::vec3& size = record.size;
+    switch (shapeOf(record))
+    {
+    case Shape::Cylinder:
+    case Shape::Frustum:
+        return std::hypot(std::max(size.x, size.y), size.z);
+    case Shape::Sphere:
+    case Shape::Dish:
+        return std::max(std::max(size.x, size.y), size.z);
+    case Shape::Torus:
+        return size.x + size.y;
+    case Shape::Quad:
+        return std::hypot(size.x, size.y);
+    default:
+        return glm::length(size);
+    }
 }
 
 float curveOf(const ObjectRecord& record)

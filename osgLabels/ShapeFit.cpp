@@ -30,7 +30,7 @@ double distanceToSegment(const glm::dvec2& p, const glm::dvec2& a, const glm::dv
 /// Of what turns around z: its generator, and the discs at its ends.
 double distanceToFrustum(const glm::dvec3& p, double low, double high, double half)
 {
-    const glm::dvec2 at(std::hypot(p.x, p.y), p.z);
+    const glm::dvec2 at(std::sqrt(p.x * p.x + p.y * p.y), p.z);
     return std::min({distanceToSegment(at, {low, -half}, {high, half}),
                      distanceToSegment(at, {0.0, -half}, {low, -half}),
                      distanceToSegment(at, {0.0, half}, {high, half})});
@@ -70,36 +70,9 @@ double distanceToTorus(const glm::dvec3& p, const glm::dvec3& size)
     return std::min(tube, std::hypot(p.x, p.y) * std::abs(std::abs(turned) - half));
 }
 
-FittedShape fitAny(const FitMesh& mesh)
+/// Of a point in the shape's frame.
+double distanceInFrame(const FittedShape& shape, const glm::dvec3& p)
 {
-    for (const auto fit : {fitQuad, fitBox, fitPyramid, fitRound, fitElbow, fitExtrusion})
-        if (auto shape = fit(mesh))
-            return *shape;
-    return projectBox(mesh);
-}
-
-void measure(const FitMesh& mesh, FittedShape& shape)
-{
-    if (shape.projected)
-        return;
-    for (const glm::dvec3& point : mesh.points)
-        shape.residual =
-            std::max(shape.residual, distanceTo(shape, mesh.center + mesh.scale * point));
-    double sum = 0.0;
-    for (const FitMesh::Facet& facet : mesh.facets)
-    {
-        const double off = distanceTo(shape, mesh.center + mesh.scale * facet.middle);
-        sum += facet.area / mesh.area * off * off;
-    }
-    shape.residual /= mesh.scale;
-    shape.coarseness = std::sqrt(sum) / mesh.scale;
-}
-
-} // namespace
-
-double distanceTo(const FittedShape& shape, const glm::dvec3& point)
-{
-    const glm::dvec3 p = shape.rotation * (point - shape.origin);
     switch (shape.shape)
     {
     case Shape::Box:
@@ -121,6 +94,41 @@ double distanceTo(const FittedShape& shape, const glm::dvec3& point)
     default:
         return 0.0;
     }
+}
+
+FittedShape fitAny(const FitMesh& mesh)
+{
+    for (const auto fit : {fitQuad, fitBox, fitPyramid, fitRound, fitElbow, fitExtrusion})
+        if (auto shape = fit(mesh))
+            return *shape;
+    return projectBox(mesh);
+}
+
+void measure(const FitMesh& mesh, FittedShape& shape)
+{
+    if (shape.projected)
+        return;
+    const glm::dmat3 frame = glm::mat3_cast(shape.rotation);
+    const glm::dvec3 moved = frame * (mesh.center - shape.origin);
+    const auto distance = [&](const glm::dvec3& point)
+    { return distanceInFrame(shape, frame * (mesh.scale * point) + moved); };
+    for (const glm::dvec3& point : mesh.points)
+        shape.residual = std::max(shape.residual, distance(point));
+    double sum = 0.0;
+    for (const FitMesh::Facet& facet : mesh.facets)
+    {
+        const double off = distance(facet.middle);
+        sum += facet.area / mesh.area * off * off;
+    }
+    shape.residual /= mesh.scale;
+    shape.coarseness = std::sqrt(sum) / mesh.scale;
+}
+
+} // namespace
+
+double distanceTo(const FittedShape& shape, const glm::dvec3& point)
+{
+    return distanceInFrame(shape, shape.rotation * (point - shape.origin));
 }
 
 FittedShape fitShape(const std::vector<glm::vec3>& vertices,

@@ -35,8 +35,8 @@ struct FittedShape
 /// Finds the shape of a mesh, three indices a triangle: Box, Cylinder, Sphere, Dish, Frustum,
 /// Pyramid, Torus, Quad or Extrusion, open or closed, from five segments around (a cylinder, cone
 /// or torus of four is a Box, Pyramid or projected). All others get a projected Box along their
-/// dominating normals, flat ones a projected Quad. Oblique cones, truncated pyramids and parts of
-/// spheres that are not halves are projected.
+/// dominating normals, flat ones a projected Quad. A pipe with a wall is its outer Cylinder.
+/// Oblique cones, truncated pyramids and parts of spheres that are not halves are projected.
 ///
 /// Triangles that are no triangles (indices beyond the vertices, coordinates that are not finite,
 /// no area) count as absent; None without any other. Callable from any thread.

@@ -17,7 +17,7 @@ struct UnitMesh
 };
 
 /// Sides of a circle, level by level; the first is the finest.
-constexpr int LevelSides[] = {96, 48, 24, 12, 6};
+constexpr int LevelSides[] = {96, 48, 24, 12, 6, 4};
 constexpr int NumLevels = sizeof LevelSides / sizeof *LevelSides;
 /// What other visitors than cull see: intersections, shadows, statistics.
 constexpr int VisitorLevel = 2;

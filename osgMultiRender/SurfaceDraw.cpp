@@ -72,22 +72,32 @@ const osg::StateSet* SurfaceFrame::mergeUnder()
 void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
                                 const std::function<bool(const SurfaceItem&)>& select)
 {
-    osg::State& state = *renderInfo.getState();
     const bool hasProgram = over.getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
-    std::vector<SurfaceItem> selected;
+    std::vector<SurfaceItem> selected, instanced;
     forEachItem(
         [&](const SurfaceItem& item)
         {
             if (!item.variant || !select(item))
                 return;
-            selected.push_back(item);
             // What is drawn many times has its places from a program with its VertexSnippet.
-            if (hasProgram && !item.variant->getKey().instance)
+            const bool keeps = hasProgram && item.variant->getKey().instance;
+            (keeps ? instanced : selected).push_back(item);
+            if (hasProgram && !keeps)
                 selected.back().variant = nullptr;
         });
-    state.pushStateSet(&over);
-    draw(renderInfo, selected.data(), selected.size());
-    state.popStateSet();
+    const auto drawOver = [&](const osg::StateSet& stateSet, const std::vector<SurfaceItem>& items)
+    {
+        osg::State& state = *renderInfo.getState();
+        state.pushStateSet(&stateSet);
+        draw(renderInfo, items.data(), items.size());
+        state.popStateSet();
+    };
+    drawOver(over, selected);
+    if (instanced.empty())
+        return;
+    osg::ref_ptr<osg::StateSet> rest = new osg::StateSet(over);
+    rest->removeAttribute(osg::StateAttribute::PROGRAM);
+    drawOver(*rest, instanced);
 }
 
 void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,

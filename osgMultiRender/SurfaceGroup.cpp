@@ -135,11 +135,16 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
     bin->getStage()->addPreRenderStage(gate, std::numeric_limits<int>::min());
     osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
-    osg::Group::traverse(visitor);
+    cullSubgraph(visitor);
     frame->getOwnPass().cull(visitor, *this);
     visitor.setCurrentRenderBin(bin);
     visitor.popStateSet();
     gate->keep(frame->insertProxies(proxies));
+}
+
+void SurfaceGroup::cullSubgraph(osg::NodeVisitor& visitor)
+{
+    osg::Group::traverse(visitor);
 }
 
 void SurfaceGroup::cullNested(osgUtil::CullVisitor& visitor, SurfaceFrame& frame)
@@ -147,7 +152,7 @@ void SurfaceGroup::cullNested(osgUtil::CullVisitor& visitor, SurfaceFrame& frame
     const osg::StateSet* scope = nthStateSet(_nested, 0);
     visitor.pushStateSet(scope);
     SurfacePass* pass = frame.addPass(*this, *scope);
-    osg::Group::traverse(visitor);
+    cullSubgraph(visitor);
     if (pass)
         pass->cull(visitor, *this);
     visitor.popStateSet();
@@ -216,8 +221,7 @@ void SurfaceGroup::setPlan(const osg::Camera* camera, Plan plan)
     _compiled += plan.counts["programs.compiledThisFrame"];
     plan.counts["programs.compiled"] = _compiled;
     // States that are drawn by a program that another one has brought in.
-    plan.counts["programs.reused"] =
-        std::max(0.0, plan.counts["states"] - plan.counts["variants"]);
+    plan.counts["programs.reused"] = std::max(0.0, plan.counts["states"] - plan.counts["variants"]);
     _plans[index].plan = std::move(plan);
     OSG_INFO << toString(_plans[index].plan) << std::flush;
 }

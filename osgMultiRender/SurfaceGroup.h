@@ -111,6 +111,9 @@ public:
 protected:
     ~SurfaceGroup() override;
 
+    /// What a cull traversal goes through: the children, unless a kit has something that draws the
+    /// same.
+    virtual void cullSubgraph(osg::NodeVisitor& visitor);
     /// The kit's part in a new frame of a view. Called in the cull thread.
     virtual std::unique_ptr<SurfacePass> createPass() const = 0;
 

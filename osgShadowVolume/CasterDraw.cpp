@@ -22,27 +22,32 @@ double determinantOf(const osg::Matrixd& m)
            m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
 }
 
-/// The power of two that takes what lies in the box, seen from the light, to behind all that is in
-/// view; the box and the light in the frame that the matrix takes clip coordinates to.
+/// The power of two of its distance from the light by which what lies in the box is moved away from
+/// the light, to behind all that is in view; the box and the light in the frame that the matrix
+/// takes clip coordinates to.
 ///
-/// Not more than that: clipping, in single precision, misplaces what is left of a far cap by some
-/// 2^-24 of the cap's size, and so the cap fails to cover the picture up to its rim. The limit, for
-/// a light that may touch its caster, leaves that at a thousandth of the caster's distance.
+/// Not by more than that: clipping, in single precision, misplaces what is left of a far cap by
+/// some 2^-24 of the cap's distance, and so the cap fails to cover the picture up to its rim. The
+/// limit, for a light that may touch its caster, leaves that at a thousandth of the caster's
+/// distance.
 int stretchOf(const osg::Vec3d& light, const osg::BoundingBoxd& box, const osg::Matrixd& fromClip)
 {
-    constexpr int Most = 14;
+    constexpr int Least = -20, Most = 14;
     osg::Vec3d nearest = light;
-    double farthest = 0.0;
     for (int k = 0; k < 3; ++k)
         nearest[k] = std::max(box._min[k], std::min(box._max[k], light[k]));
+    double farthest = 0.0;
     for (unsigned int i = 0; i < 8; ++i)
-        farthest = std::max(farthest, (osg::Vec3d((i & 1u) ? 1.0 : -1.0, (i & 2u) ? 1.0 : -1.0,
-                                                  (i & 4u) ? 1.0 : -1.0) *
-                                           fromClip -
-                                       light)
-                                          .length());
-    const double ratio = farthest / (nearest - light).length();
-    return ratio < std::ldexp(1.0, Most) ? std::max(1, std::ilogb(ratio) + 2) : Most;
+    {
+        const osg::Vec3d corner((i & 1u) ? 1.0 : -1.0, (i & 2u) ? 1.0 : -1.0,
+                                (i & 4u) ? 1.0 : -1.0);
+        farthest = std::max(farthest, (corner * fromClip - light).length());
+    }
+    const double distance = (nearest - light).length();
+    const double missing = farthest / distance - 1.0;
+    if (!(missing < std::ldexp(1.0, Most - 2)))
+        return Most;
+    return missing > std::ldexp(1.0, Least) ? std::ilogb(missing) + 2 : Least;
 }
 
 void setUniform(const osg::State& state, const char* name, float value)

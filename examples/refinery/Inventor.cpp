@@ -81,7 +81,9 @@ std::string legalDefName(const std::string& name)
 
 InventorWriter::InventorWriter(std::ostream& out) : _out(out)
 {
+    // Inventor has y up, and readers turn it.
     _out << "#Inventor V2.1 ascii\nSeparator {\n"
+            "Rotation { rotation 1 0 0 -1.57079633 }\n"
             "ShapeHints { vertexOrdering COUNTERCLOCKWISE creaseAngle 0.6 }\n";
 }
 
@@ -100,8 +102,9 @@ void InventorWriter::add(const Primitive& primitive)
     if (x == 0.0 && y == 0.0 && z == 0.0)
         z = 1.0;
     const osg::Vec3d& at = primitive.position;
-    _out << "DEF " << legalDefName(primitive.name) << " Separator {\nTransform { translation "
-         << numbers({at.x(), at.y(), at.z()});
+    if (!primitive.name.empty())
+        _out << "DEF " << legalDefName(primitive.name) << " ";
+    _out << "Separator {\nTransform { translation " << numbers({at.x(), at.y(), at.z()});
     if (angle != 0.0)
         _out << " rotation " << numbers({x, y, z, angle});
     if (!isBuiltIn(primitive.shape))

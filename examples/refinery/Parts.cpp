@@ -107,9 +107,9 @@ void Parts::ring(const Vec3d& center, const Vec3d& axis, double radius, double t
     put(Shape::Torus, {radius, tube, 2.0 * osg::PI}, center, alongZ(axis), name);
 }
 
-void Parts::ground(const Vec3d& center, double halfX, double halfY, const std::string& name)
+void Parts::ground(const Vec3d& center, double halfX, double halfY)
 {
-    put(Shape::Quad, {halfX, halfY, 0.0}, center, osg::Quat(), name);
+    put(Shape::Quad, {halfX, halfY, 0.0}, center, osg::Quat(), {});
 }
 
 /// From the direction `in` to `out`, which are perpendicular: a quarter of a ring.

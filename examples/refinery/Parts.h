@@ -37,8 +37,8 @@ public:
     void hopper(const osg::Vec3d& top, double half, double height, const std::string& name);
     void ring(const osg::Vec3d& center, const osg::Vec3d& axis, double radius, double tube,
               const std::string& name);
-    /// A horizontal quad.
-    void ground(const osg::Vec3d& center, double halfX, double halfY, const std::string& name);
+    /// A horizontal quad, which has no name.
+    void ground(const osg::Vec3d& center, double halfX, double halfY);
     /// A pipe through `points`, with an elbow at each inner one. Spools are named after the line.
     void route(const std::vector<osg::Vec3d>& points, double radius, const std::string& line);
 

@@ -27,7 +27,7 @@ void makeRefinery(const RefinerySettings& settings, const AddPrimitive& add)
     const osg::Vec3d middle(0.5 * columns * ProcessUnit::Length,
                             0.5 * rows * (ProcessUnit::Depth + Road), 0.0);
     parts.color.set(96, 104, 84, 255);
-    parts.ground({0.0, 0.0, -0.5}, middle.x() + 2.0 * Road, middle.y() + 2.0 * Road, "SITE");
+    parts.ground({0.0, 0.0, -0.5}, middle.x() + 2.0 * Road, middle.y() + 2.0 * Road);
     for (unsigned int i = 0; !parts.isDone(); ++i)
     {
         const osg::Vec3d corner(i % columns * ProcessUnit::Length,

@@ -16,7 +16,8 @@ struct RefinerySettings
 using AddPrimitive = std::function<void(const osgLabels::Primitive&)>;
 
 /// A refinery: process units along pipe racks, tank farms, storage spheres. Metres, z is up, the
-/// middle of the ground is about the origin. Each object has a tag of its own, pipes by spools.
+/// middle of the ground is about the origin. Each object has a tag of its own, pipes by spools; the
+/// ground has none.
 void makeRefinery(const RefinerySettings& settings, const AddPrimitive& add);
 
 /// Quads of random sizes at random places, all facing -y, as in "Surface Labeling in Real Time

@@ -18,7 +18,7 @@ namespace
 constexpr char Help[] =
     R"(osgrefinery [options] FILE
 Writes a generated refinery: pipe racks, vessels, towers, tanks, spheres, pumps and
-steel, each object with a tag of its own. The ending says the format: .osgb, .osgt,
+steel, each with a tag of its own, on a ground without. The ending says the format: .osgb, .osgt,
 .osgx, or .iv for Inventor text.
 
   --objects N    how many, 0 to 2000000; for .iv and --as drawables to 100000

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much of a pixel a label's ink covers. GlyphCoverage is its twin in C++; what the images hold
-// is told in GlyphImages.h. Needs labelTable.glsl. One loop with one look-up a turn, and no branch
-// around it: software renderers run both sides of a branch.
+// is told in GlyphImages.h. Needs labelTable.glsl. One loop with two look-ups a turn, and no branch
+// around it: software renderers run both sides of a branch, and a loop's turn costs them much.
 // OSGLABELS_PROPORTIONAL: each letter has its own advance. OSGLABELS_OUTLINE: with grown ink.
 uniform sampler2DArray osgLabels_glyphs;
 uniform vec4 osgLabels_levels[8];    // texels an em, offset in texels, margin in em; 7: distances
@@ -12,7 +12,7 @@ uniform vec2 osgLabels_legible;      // under x pixels an em ink fades, to y tim
 
 const float osgLabels_Spread = 4.0 / 128.0; // em that 0 and 1 of a distance stand for
 const float osgLabels_LargeFrom = 20.0;     // pixels an em from where distances are used,
-const float osgLabels_HugeFrom = 56.0;      // and from where one does for a pixel
+const float osgLabels_HugeFrom = 44.0;      // and from where one does for a pixel
 const float osgLabels_Slices = 2.5;         // of a square's side, along a long footprint
 const float osgLabels_MostSlices = 32.0;
 
@@ -24,11 +24,27 @@ struct osgLabels_Cell
     float width;
 };
 
-// Layer, and column of images within the layers, whose number is a power of two.
-ivec2 osgLabels_layerOf(uint code, uint which, int layers)
+// Of the texture: a texel in coordinates, layers - 1, 1 / layers.
+struct osgLabels_Size
 {
-    uint image = code * uint(osgLabels_layer.y) + which;
-    return ivec2(image & uint(layers - 1), image / uint(layers));
+    vec2 texel;
+    int mask;
+    float perLayer;
+};
+
+osgLabels_Size osgLabels_sizeOf()
+{
+    ivec3 size = textureSize(osgLabels_glyphs, 0);
+    vec3 inverse = 1.0 / vec3(size);
+    return osgLabels_Size(inverse.xy, size.z - 1, inverse.z);
+}
+
+// Layer, and column of images within the layers, whose number is a power of two.
+vec2 osgLabels_layerOf(uint code, uint which, osgLabels_Size size)
+{
+    int image = int(code * uint(osgLabels_layer.y) + which);
+    int layer = image & size.mask;
+    return vec2(float(layer), float(image - layer) * size.perLayer);
 }
 
 uint osgLabels_codeAt(osgLabels_Text text, int index)
@@ -41,9 +57,8 @@ float osgLabels_advanceAt(osgLabels_Text text, int index)
 {
     if (index < 0 || index >= text.length)
         return 0.0;
-    ivec2 layer = osgLabels_layerOf(osgLabels_code(text, index), 0u,
-                                    textureSize(osgLabels_glyphs, 0).z);
-    ivec3 texel = ivec3(layer.y * int(osgLabels_layer.x), 0, layer.x);
+    vec2 layer = osgLabels_layerOf(osgLabels_code(text, index), 0u, osgLabels_sizeOf());
+    ivec3 texel = ivec3(layer.y * osgLabels_layer.x, 0.0, layer.x);
     return dot(texelFetch(osgLabels_glyphs, texel, 0), 255.0 * exp2(-vec4(0.0, 8.0, 16.0, 24.0)));
 }
 
@@ -79,7 +94,7 @@ float osgLabels_width(osgLabels_Text text)
 #else
 osgLabels_Cell osgLabels_cellAt(osgLabels_Text text, osgLabels_Cell cell, float x)
 {
-    float index = floor(x / osgLabels_letters.x);
+    float index = floor(x * (1.0 / osgLabels_letters.x));
     return osgLabels_Cell(int(index), index * osgLabels_letters.x, osgLabels_letters.x);
 }
 
@@ -95,148 +110,110 @@ float osgLabels_width(osgLabels_Text text) { return float(text.length) * osgLabe
 struct osgLabels_Sampling
 {
     vec4 level;
-    vec4 mixing;   // of the channels
-    bool isDistance;
-    float gain;    // from what was read to a share of ink
-    float bias;
-    float reach;   // from a cell's side, in em, where the neighbour's ink counts
+    vec4 mixing;     // of the channels
+    float distances; // 1 where the image is of distances, 0 where of squares
+    vec2 gain;       // factor and summand from what was read to a share of ink
+    osgLabels_Size size;
 };
-
-// `side` of the square in em that a look-up stands for, `turned` the cosine of four times its
-// angle.
-osgLabels_Sampling osgLabels_samplingOf(float side, float turned, bool isDistance, float reach)
-{
-    float level = clamp(-2.0 * log2(side) - 2.0, 0.0, 6.999);
-    float finer = fract(level);
-    vec2 turn = vec2(0.5 + 0.5 * turned, 0.5 - 0.5 * turned);
-    osgLabels_Sampling sampling;
-    sampling.level = osgLabels_levels[isDistance ? 7 : int(level)];
-    sampling.mixing = vec4(turn * (1.0 - finer), turn * finer);
-    sampling.isDistance = isDistance;
-    sampling.gain = isDistance ? 2.0 * osgLabels_Spread / side : 1.0;
-    sampling.bias = isDistance ? 0.5 - osgLabels_Spread / side : 0.0;
-    sampling.reach = (isDistance ? 0.0 : reach) + osgLabels_letters.y;
-    return sampling;
-}
 
 // Share of a letter's ink about a place of the text.
 float osgLabels_letterInk(osgLabels_Text text, osgLabels_Cell cell, vec2 place,
                           osgLabels_Sampling sampling, uint which)
 {
-    ivec3 size = textureSize(osgLabels_glyphs, 0);
-    ivec2 layer = osgLabels_layerOf(osgLabels_codeAt(text, cell.index), which, size.z);
+    vec2 layer = osgLabels_layerOf(osgLabels_codeAt(text, cell.index), which, sampling.size);
     place.x -= cell.left;
     place = clamp(place, vec2(-sampling.level.w), vec2(cell.width, 1.0) + sampling.level.w);
     vec2 texel = place * sampling.level.x + sampling.level.yz;
     // The four channels of distances are the quarters of one image, which overlap by two texels.
-    vec2 quarter = sampling.isDistance ? step(osgLabels_quarters.zw, texel) : vec2(0.0);
-    vec2 other = 1.0 - quarter;
-    vec4 channel = vec4(other.x, quarter.x, other.x, quarter.x) *
-                   vec4(other.y, other.y, quarter.y, quarter.y);
+    vec2 quarter = step(osgLabels_quarters.zw, texel) * sampling.distances;
+    vec2 other = vec2(sampling.distances) - quarter;
+    vec4 mixing = sampling.mixing + vec4(other.x, quarter.x, other.x, quarter.x) *
+                                        vec4(other.y, other.y, quarter.y, quarter.y);
     texel -= quarter * osgLabels_quarters.xy;
-    texel.x += float(layer.y) * osgLabels_layer.x;
-    vec4 read = textureLod(osgLabels_glyphs, vec3(texel / vec2(size.xy), float(layer.x)), 0.0);
-    float value = dot(read, sampling.isDistance ? channel : sampling.mixing);
-    float share = clamp(value * sampling.gain + sampling.bias, 0.0, 1.0);
+    texel.x += layer.y * osgLabels_layer.x;
+    vec4 read = textureLod(osgLabels_glyphs, vec3(texel * sampling.size.texel, layer.x), 0.0);
+    float share = clamp(dot(read, mixing) * sampling.gain.x + sampling.gain.y, 0.0, 1.0);
     return cell.index >= 0 && cell.index < text.length ? share : 0.0;
-}
-
-// The real part of a vector's fourth power, as of a complex number.
-float osgLabels_fourth(vec2 v)
-{
-    float real = v.x * v.x - v.y * v.y, imaginary = 2.0 * v.x * v.y;
-    return real * real - imaginary * imaginary;
-}
-
-// A footprint as slices across its long axis. `a` and `b` are its sides, turned to run along the
-// axis, by `run` em each, a the longer there.
-struct osgLabels_Slicing
-{
-    vec2 a, b;
-    vec2 run;
-    float count;
-    float side;   // of the square that stands for a slice, em
-    float turned; // cosine of four times the axis's angle
-};
-
-osgLabels_Slicing osgLabels_slicingOf(vec2 a, vec2 b, float area)
-{
-    vec2 columns = a * a + b * b;
-    vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
-    float axis = length(twice);
-    float longest = sqrt(0.5 * (columns.x + columns.y) + axis);
-    // Half of the angle, from the side where that does not cancel.
-    vec2 direction = twice.x > 0.0 ? vec2(axis + twice.x, twice.y)
-                                   : vec2(twice.y, axis - twice.x);
-    direction /= max(length(direction), 1e-30);
-    osgLabels_Slicing slicing;
-    slicing.run = vec2(dot(a, direction), dot(b, direction));
-    slicing.a = slicing.run.x < 0.0 ? -a : a;
-    slicing.b = slicing.run.y < 0.0 ? -b : b;
-    slicing.run = abs(slicing.run);
-    bool isSwapped = slicing.run.x < slicing.run.y;
-    vec4 sides = vec4(slicing.a, slicing.b);
-    slicing.a = isSwapped ? sides.zw : sides.xy;
-    slicing.b = isSwapped ? sides.xy : sides.zw;
-    slicing.run = isSwapped ? slicing.run.yx : slicing.run;
-    slicing.side = max(area / longest, longest * osgLabels_Slices / osgLabels_MostSlices);
-    slicing.count = clamp(ceil(osgLabels_Slices * longest / slicing.side), 1.0,
-                          osgLabels_MostSlices);
-    slicing.turned = (twice.x * twice.x - twice.y * twice.y) / max(axis * axis, 1e-30);
-    return slicing;
-}
-
-// The middle of a slice, from that of the footprint, and how wide the slice is there.
-vec3 osgLabels_sliceAt(osgLabels_Slicing slicing, float i)
-{
-    float at = ((i + 0.5) / slicing.count - 0.5) * (slicing.run.x + slicing.run.y);
-    vec2 ends = clamp((at + vec2(-0.5, 0.5) * slicing.run.x) / max(slicing.run.y, 1e-20), -0.5,
-                      0.5);
-    float t = 0.5 * (ends.x + ends.y);
-    float s = (at - t * slicing.run.y) / slicing.run.x;
-    return vec3(s * slicing.a + t * slicing.b, ends.y - ends.x);
 }
 
 float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
 {
     vec2 a = footprint[0], b = footprint[1];
+    vec2 columns = a * a + b * b;
+    float squares = columns.x + columns.y;
     float area = max(abs(a.x * b.y - a.y * b.x), 1e-30);
-    float squares = dot(a, a) + dot(b, b);
-    bool isLong = squares > 2.2 * area;
-    osgLabels_Slicing slicing = osgLabels_slicingOf(a, b, area);
-    float side = isLong ? slicing.side : sqrt(area);
-    bool isDistance = side * osgLabels_LargeFrom < 1.0;
-    bool isQuartered = isDistance && !isLong && side * osgLabels_HugeFrom > 1.0;
-    slicing.count = isLong ? slicing.count : isQuartered ? 4.0 : 1.0;
-    float squared = dot(a, a) * dot(a, a) + dot(b, b) * dot(b, b);
-    float turned = isLong ? slicing.turned
-                          : (osgLabels_fourth(a) + osgLabels_fourth(b)) / squared;
-    osgLabels_Sampling sampling =
-        osgLabels_samplingOf(isQuartered ? 0.5 * side : side, turned, isDistance,
-                             isLong ? 0.75 * side : 0.6 * (abs(a.x) + abs(b.x)));
 
+    // The long axis, as a vector of twice its angle, and how much longer it is.
+    vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
+    float axis = length(twice);
+    float longest = 0.5 * squares + axis; // squared
+    bool isLong = squares > 2.2 * area;
+    float ratio = isLong ? longest / area : 1.0;
+
+    // A look-up is of a square: of the pixel's area, or as wide as a long pixel is narrow.
+    const float least = osgLabels_Slices / osgLabels_MostSlices;
+    float squared = max(area / ratio, isLong ? longest * least * least : 0.0);
+    float pixels = inversesqrt(squared); // an em
+    bool isDistance = pixels > osgLabels_LargeFrom;
+    bool isQuartered = isDistance && !isLong && pixels < osgLabels_HugeFrom;
+    float count = isLong ? min(ceil(osgLabels_Slices * ratio), osgLabels_MostSlices)
+                         : isQuartered ? 4.0 : 2.0;
+
+    float level = clamp(-log2(squared) - 2.0, 0.0, 6.999);
+    float finer = fract(level);
+    vec2 doubled = isLong ? twice : vec2(a.x * a.x - a.y * a.y, 2.0 * a.x * a.y);
+    float turn = doubled.y * doubled.y / max(dot(doubled, doubled), 1e-36);
+    osgLabels_Sampling sampling;
+    sampling.size = osgLabels_sizeOf();
+    sampling.level = osgLabels_levels[isDistance ? 7 : int(level)];
+    sampling.distances = isDistance ? 1.0 : 0.0;
+    sampling.mixing = vec4(1.0 - turn, turn, 1.0 - turn, turn) *
+                      vec4(vec2(1.0 - finer), vec2(finer)) * (1.0 - sampling.distances);
+    float gain = (isQuartered ? 2.0 : 1.0) * osgLabels_Spread * pixels;
+    sampling.gain = isDistance ? vec2(2.0 * gain, 0.5 - gain) : vec2(1.0, 0.0);
+
+    // Slices lie across the axis, each a square in the middle of what it cuts of the footprint.
+    // Sides are turned to run along the axis, the longer there first.
+    vec2 direction = twice.x > 0.0 ? vec2(axis + twice.x, twice.y)
+                                   : vec2(twice.y, axis - twice.x);
+    vec2 run = vec2(dot(a, direction), dot(b, direction));
+    a = run.x < 0.0 ? -a : a;
+    b = run.y < 0.0 ? -b : b;
+    run = abs(run);
+    vec2 first = run.x < run.y ? b : a;
+    b = run.x < run.y ? a : b;
+    a = first;
+    run = vec2(max(run.x, run.y), min(run.x, run.y));
+    vec2 inverse = 1.0 / max(run, 1e-25);
+
+    // Two look-ups a turn: of two slices or quarters, or of a letter and its nearer neighbour.
+    bool isPair = count == 2.0 && !isLong;
+    vec2 toAlong = vec2(1.0, 0.5 - 0.5 * count) * (run.x + run.y) / count;
+    float ink = 0.0, weight = isPair ? 1.0 : 0.0;
     osgLabels_Cell cell = osgLabels_cellAt(text, osgLabels_Cell(-1, 0.0, 0.0), place.x);
-    float ink = 0.0, weight = 0.0;
-    bool isSecond = false; // of the two letters that a place may see
-    for (float i = 0.0; i < slicing.count;)
+    for (float i = 0.0; i < count; i += 2.0)
     {
-        vec3 slice = osgLabels_sliceAt(slicing, i);
-        vec3 quarter = vec3((mod(i, 2.0) - 0.5) * 0.5 * a + (floor(0.5 * i) - 0.5) * 0.5 * b, 1.0);
-        slice = isLong ? slice : isQuartered ? quarter : vec3(0.0, 0.0, 1.0);
-        vec2 at = place + slice.xy;
+        vec2 along = vec2(i, i + 1.0) * toAlong.x + toAlong.y;
+        vec2 low = clamp((along - 0.5 * run.x) * inverse.y, -0.5, 0.5);
+        vec2 high = clamp((along + 0.5 * run.x) * inverse.y, -0.5, 0.5);
+        vec2 t = 0.5 * (low + high), s = (along - t * run.y) * inverse.x, width = high - low;
+        t = isLong ? t : isQuartered ? vec2(0.25 * i - 0.25) : vec2(0.0);
+        s = isLong ? s : isQuartered ? vec2(-0.25, 0.25) : vec2(0.0);
+        width = isLong ? vec2(width.x, i + 1.0 < count ? width.y : 0.0) : vec2(1.0);
+        vec2 at = place + s.x * a + t.x * b, next = place + s.y * a + t.y * b;
         cell = osgLabels_cellAt(text, cell, at.x);
-        float fromLeft = at.x - cell.left, fromRight = cell.left + cell.width - at.x;
-        osgLabels_Cell seen = cell;
-        if (isSecond)
-            seen = osgLabels_neighbour(text, cell, fromLeft < fromRight ? -1 : 1);
-        ink += slice.z * osgLabels_letterInk(text, seen, at, sampling, which);
-        isSecond = !isSecond && min(fromLeft, fromRight) < sampling.reach;
-        weight += isSecond ? 0.0 : slice.z;
-        i += isSecond ? 0.0 : 1.0;
+        osgLabels_Cell other = osgLabels_cellAt(text, cell, next.x);
+        if (isPair)
+            other = osgLabels_neighbour(text, cell, at.x - cell.left < 0.5 * cell.width ? -1 : 1);
+        ink += width.x * osgLabels_letterInk(text, cell, at, sampling, which) +
+               width.y * osgLabels_letterInk(text, other, next, sampling, which);
+        weight += isPair ? 0.0 : width.x + width.y;
     }
     ink = min(ink / weight, 1.0);
-    float legible = clamp(2.0 / max(sqrt(area) * osgLabels_legible.x, 1e-30) - 1.0, 0.0, 1.0);
-    return mix(osgLabels_letters.z * osgLabels_legible.y, ink, legible);
+    float faint = area * osgLabels_legible.x * osgLabels_legible.x;
+    float legible = clamp(2.0 * inversesqrt(max(faint, 1e-30)) - 1.0, 0.0, 1.0);
+    float mean = osgLabels_letters.z * osgLabels_legible.y;
+    return legible > 0.0 ? mix(mean, ink, legible) : mean; // also for footprints beyond numbers
 }
 
 // Share of the pixel that ink covers, 0 to 1. place: em; footprint: em a pixel, by columns.

@@ -31,6 +31,10 @@ uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprin
                     osgLabels_frame[2] * clip.z + osgLabels_frame[3];
     vec3 dx = dFdx(position);
     vec3 dy = dFdy(position);
+#ifdef OSGLABELS_TEXCOORD
+    vec3 textureDx = vec3(dFdx(osgLabels_texCoord), 0.0);
+    vec3 textureDy = vec3(dFdy(osgLabels_texCoord), 0.0);
+#endif
 
     place = vec2(-1.0);
     footprint = mat2(0.0);
@@ -41,6 +45,16 @@ uint osgLabels_locate(out osgLabels_Text text, out vec2 place, out mat2 footprin
     text = osgLabels_textOf(object.id);
     if (text.length == 0)
         return object.id;
+    if ((object.shape & 0xffu) == 10u)
+    {
+#ifdef OSGLABELS_TEXCOORD
+        position = vec3(osgLabels_texCoord - object.origin.xy, 0.0);
+        dx = textureDx;
+        dy = textureDy;
+#else
+        return object.id; // the model's own program hides them
+#endif
+    }
     osgLabels_View view;
     view.base = osgLabels_frame[4] - object.origin;
     view.eye = parallel ? vec4(osgLabels_frame[7], 0.0) : vec4(view.base, 1.0);

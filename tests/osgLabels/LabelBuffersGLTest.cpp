@@ -53,16 +53,9 @@ class TableReader : public osg::Drawable
 public:
     using Question = std::function<Read(std::uint32_t)>;
 
-    TableReader(LabelBuffers& buffers, bool isPaged, std::function<void(const Question&)> check)
+    TableReader(LabelBuffers& buffers, std::function<void(const Question&)> check)
         : _buffers(buffers), _check(std::move(check)), _stateSet(new osg::StateSet)
     {
-        osg::ref_ptr<osg::Program> program = new osg::Program;
-        program->addShader(new osg::Shader(osg::Shader::VERTEX, vertexShader));
-        program->addShader(new osg::Shader(
-            osg::Shader::FRAGMENT, std::string("#version 330 compatibility\n") +
-                                       (isPaged ? "#define OSGLABELS_PAGED\n" : "") +
-                                       osgLabels::shaders::labelTable_glsl + fragmentShader));
-        _stateSet->setAttribute(program);
         setCullingActive(false);
         setUseDisplayList(false);
     }
@@ -84,6 +77,7 @@ public:
         gl->glFramebufferRenderbuffer(GL_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
                                       GL_RENDERBUFFER_EXT, target);
         glViewport(0, 0, Width, 1);
+        setProgram(_buffers.isPaged(state));
         _check([&](std::uint32_t identifier) { return read(state, identifier); });
         gl->glBindFramebuffer(GL_FRAMEBUFFER_EXT, static_cast<GLuint>(before));
         gl->glDeleteFramebuffers(1, &framebuffer);
@@ -92,6 +86,17 @@ public:
     }
 
 private:
+    void setProgram(bool isPaged) const
+    {
+        osg::ref_ptr<osg::Program> program = new osg::Program;
+        program->addShader(new osg::Shader(osg::Shader::VERTEX, vertexShader));
+        program->addShader(new osg::Shader(
+            osg::Shader::FRAGMENT, std::string("#version 330 compatibility\n") +
+                                       (isPaged ? "#define OSGLABELS_PAGED\n" : "") +
+                                       osgLabels::shaders::labelTable_glsl + fragmentShader));
+        _stateSet->setAttribute(program);
+    }
+
     Read read(osg::State& state, std::uint32_t identifier) const
     {
         const auto* gl = state.get<osg::GLExtensions>();
@@ -133,7 +138,7 @@ protected:
     {
         support::NotifyCapture notify;
         bool isDrawn = false;
-        osg::ref_ptr<TableReader> reader = new TableReader(buffers, GetParam(),
+        osg::ref_ptr<TableReader> reader = new TableReader(buffers,
                                                            [&](const TableReader::Question& ask)
                                                            {
                                                                isDrawn = true;

@@ -19,6 +19,7 @@ std::vector<PlacedShape> placedShapes()
             {"cone", frustum(1.0, 0.0, 1.2, 48, 12, FanCapped), 4.0f},
             {"reducer", frustum(1.0, 0.6, 0.8, 48, 4, FanCapped), 5.0f},
             {"flat cone", frustum(0.2, 1.5, 0.2, 48, 4, FanCapped), 5.0f},
+            {"washer", frustum(1.0, 1.5, 0.02, 48, 1, Open), 8.0f},
             {"spire", frustum(0.5, 0.1, 4.0, 32, 8, FanCapped), 5.0f},
             {"pyramid", pyramid({1.0, 1.0, 0.8}, true), 4.0f},
             {"elbow", torus(1.5, 0.5, 1.5707963, 16, 24, FanCapped), 5.0f},

@@ -163,6 +163,20 @@ void copyTile(const osg::Image& tile, osg::Image& sheet, int column, int row)
                     tile.data(0, y), std::size_t(4 * tile.s()));
 }
 
+/// Pixels of letters that are a text's first (red) and others.
+glm::ivec2 countInk(const osg::Image& tile)
+{
+    glm::ivec2 count(0);
+    for (int y = 0; y != tile.t(); ++y)
+        for (int x = 0; x != tile.s(); ++x)
+        {
+            const unsigned char* pixel = tile.data(x, y);
+            count.x += pixel[0] > 200 && pixel[1] < 20 && pixel[2] < 20;
+            count.y += pixel[0] < 20 && pixel[1] < 20 && pixel[2] > 60;
+        }
+    return count;
+}
+
 /// A picture of all shapes, a column for each of the directions that they are seen from.
 osg::ref_ptr<osg::Image> contactSheet(support::HeadlessViewer& viewer,
                                       const std::vector<osg::Vec3d>& from,
@@ -176,9 +190,11 @@ osg::ref_ptr<osg::Image> contactSheet(support::HeadlessViewer& viewer,
     sheet->allocateImage(Side * int(from.size()), Side * int(count), 1, GL_RGBA, GL_UNSIGNED_BYTE);
     osg::ref_ptr<osg::Program> program = programOf(LettersVertex, Letters);
     for (std::size_t i = 0; i != count; ++i)
+    {
+        const PlacedShape& shape = shapes[first + i];
+        int readable = 0;
         for (std::size_t k = 0; k != from.size(); ++k)
         {
-            const PlacedShape& shape = shapes[first + i];
             osg::ref_ptr<osg::MatrixTransform> root = new osg::MatrixTransform(placed);
             root->addChild(geometryOf(shape.mesh));
             osg::StateSet* state = root->getOrCreateStateSet();
@@ -193,9 +209,15 @@ osg::ref_ptr<osg::Image> contactSheet(support::HeadlessViewer& viewer,
                                                                  center, osg::Vec3d(0, 0, 1), 46, 1,
                                                                  0.1 * radius, 10 * radius);
             const auto tile = viewer.render(root, camera, Side, Side);
-            if (tile)
-                copyTile(*tile, *sheet, int(k), int(i));
+            if (!tile)
+                continue;
+            copyTile(*tile, *sheet, int(k), int(i));
+            const glm::ivec2 ink = countInk(*tile);
+            readable += ink.x > 4 && ink.y > 12;
         }
+        // From straight above, a sphere's or a dish's text lies on the rim.
+        EXPECT_GE(readable, int(from.size()) - 2) << shape.name;
+    }
     return sheet;
 }
 

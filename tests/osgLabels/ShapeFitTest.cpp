@@ -282,6 +282,69 @@ TEST(ShapeFitTest, whatIsNoShapeIsProjected)
     }
 }
 
+TEST(ShapeFitTest, aDodecahedronIsNoSphere)
+{
+    // Its 20 corners lie on a sphere; each of its sides has the five that are farthest that way.
+    const double phi = 0.5 * (1.0 + std::sqrt(5.0));
+    ShapeMesh mesh;
+    std::vector<glm::dvec3> ways;
+    for (const double a : {-1.0, 1.0})
+        for (const double b : {-1.0, 1.0})
+        {
+            for (const double c : {-1.0, 1.0})
+                mesh.points.emplace_back(a, b, c);
+            for (int axis = 0; axis != 3; ++axis)
+            {
+                glm::dvec3 corner(0.0), way(0.0);
+                corner[(axis + 1) % 3] = a / phi;
+                corner[(axis + 2) % 3] = b * phi;
+                way[(axis + 1) % 3] = a * phi;
+                way[(axis + 2) % 3] = b;
+                mesh.points.push_back(corner);
+                ways.push_back(glm::normalize(way));
+            }
+        }
+    for (const glm::dvec3& way : ways)
+    {
+        const glm::dvec3 x = glm::normalize(glm::cross(way, glm::dvec3(0.3, 0.5, 0.9)));
+        std::vector<std::pair<double, std::uint32_t>> side;
+        for (std::uint32_t i = 0; i != mesh.points.size(); ++i)
+            if (glm::dot(mesh.points[i], way) > 1.3)
+                side.emplace_back(std::atan2(glm::dot(mesh.points[i], glm::cross(way, x)),
+                                             glm::dot(mesh.points[i], x)),
+                                  i);
+        ASSERT_EQ(side.size(), 5u);
+        std::sort(side.begin(), side.end());
+        for (std::size_t i = 1; i != 4; ++i)
+            mesh.indices.insert(mesh.indices.end(),
+                                {side[0].second, side[i].second, side[i + 1].second});
+    }
+    const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+    EXPECT_EQ(int(fit.shape), int(Shape::Box));
+    EXPECT_TRUE(fit.projected);
+}
+
+TEST(ShapeFitTest, aPipeWithAWallIsACylinder)
+{
+    ShapeMesh mesh = shapemesh::frustum(1.0, 1.0, 3.0, 24, 1, shapemesh::Open);
+    const ShapeMesh bore = shapemesh::frustum(0.8, 0.8, 3.0, 24, 1, shapemesh::Open);
+    const auto first = std::uint32_t(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), bore.points.begin(), bore.points.end());
+    for (const std::uint32_t index : bore.indices)
+        mesh.indices.push_back(first + index);
+    // Ends: a ring of quads each; points go up and down in turn.
+    for (std::uint32_t i = 0; i != 24; ++i)
+        for (const std::uint32_t end : {0u, 1u})
+        {
+            const std::uint32_t a = 2 * i + end;
+            mesh.indices.insert(mesh.indices.end(),
+                                {a, a + 2, first + a, a + 2, first + a + 2, first + a});
+        }
+    const FittedShape fit = fitShape(mesh.vertices(), mesh.indices);
+    EXPECT_EQ(int(fit.shape), int(Shape::Cylinder));
+    EXPECT_LT(glm::distance(fit.size, glm::dvec3(1.0, 1.0, 3.0)), 1e-5);
+}
+
 TEST(ShapeFitTest, halfAPipeIsAnExtrusion)
 {
     ShapeMesh half = shapemesh::frustum(1, 1, 2, 24, 1, shapemesh::Open);

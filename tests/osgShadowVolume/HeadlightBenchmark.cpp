@@ -7,7 +7,7 @@
 // Without a headlight of its own the benchmark's is a light that is placed in eye coordinates. The
 // last row has as many drawables as asked for, each under a matrix of its own. All are drawn in
 // turns; printed are medians, of ratios those of a round.
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osgShadowVolume/ShadowedScene.h>
 

@@ -10,7 +10,7 @@
 //
 // Each number of lights is drawn at rest and with a moving camera (then light data and grid are
 // made anew each frame), in turns; printed are medians and what the plan says.
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osgShadowVolume/LitScene.h>
 

@@ -7,6 +7,7 @@
 #include <osg/CullFace>
 #include <osg/MatrixTransform>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -160,10 +161,11 @@ TEST_F(ShadowExtremeGLTest, orthographicViewsFromInsideAVolume)
     ExtremeMesh mesh;
     mesh.plate(0.9f, 1.5f);
     mesh.quad({-0.9f, -1.4f, 1.2f}, {1.1f, -1.2f, 1.3f}, {1.0f, 1.3f, 1.9f}, {-1.2f, 0.8f, 1.7f});
-    for (float height : {4.1f, 2.0f, 1.51f})
+    for (float height : {4.1f, 2.0f, 1.51f, 1e5f})
     {
+        const float side = std::max(1.0f, 0.3f * height);
         const osg::ref_ptr<osg::Group> scene =
-            sceneOf(*mesh.createNode(), {0.21f, -0.13f, height, 1.0f});
+            sceneOf(*mesh.createNode(), {0.21f * side, -0.13f * side, height, 1.0f});
         for (int i = 0; i < 6; ++i)
         {
             const osg::Vec3d eye(0.1, 0.05, 1.1);

@@ -8,7 +8,7 @@
 // "anew" is the plain way: one cull and one draw a light, each of a scene with this light alone.
 // Its frames are summed, less what an empty frame takes for all but one of them; adding them up in
 // the framebuffer is not counted. All ways are drawn in turns; printed are medians.
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osgShadowVolume/ShadowedScene.h>
 

@@ -8,7 +8,7 @@
 // the differences in a round. "moving": the light has moved since the last frame, so what the CPU
 // found before is of no use. Bytes are those of one edge: `mesh` in main memory, the rest on the
 // GPU, vertices included.
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osgShadowVolume/CasterCache.h>
 #include <osgShadowVolume/ShadowedScene.h>

@@ -5,7 +5,7 @@
 //
 // Each model is drawn as stock OSG, with lighting=vertex and with lighting=pixel in turns; printed
 // are medians over the rounds and the median of the ratios of each round.
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osgShadowVolume/LitScene.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "FrameTimer.h"
+#include <support/FrameTimer.h>
 
 #include <osg/Stats>
 #include <osg/Timer>
