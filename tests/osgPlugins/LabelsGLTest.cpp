@@ -65,7 +65,7 @@ protected:
         return dynamic_cast<LabelScene*>(node.get());
     }
 
-    /// A box over a floor under a sun: as a batch or as meshes. The file's name.
+    /// A box before a wall under a sun: as a batch or as meshes. The file's name.
     std::string writeThings(bool batched) const
     {
         osg::ref_ptr<osg::Group> scene = new osg::Group;
@@ -79,8 +79,8 @@ protected:
             scene->addChild(new osg::ShapeDrawable(
                 new osg::Box(center, 2.0f * half.x(), 2.0f * half.y(), 2.0f * half.z())));
         };
-        add(osg::Vec3(0.0f, 0.0f, -0.1f), osg::Vec3(3.0f, 3.0f, 0.1f));
-        add(osg::Vec3(0.0f, 0.0f, 1.5f), osg::Vec3(0.8f, 0.8f, 0.3f));
+        add(osg::Vec3(0.0f, 2.0f, 0.0f), osg::Vec3(3.0f, 0.1f, 3.0f));
+        add(osg::Vec3(0.0f, 0.0f, 0.0f), osg::Vec3(0.8f, 0.3f, 0.8f));
         if (batched)
         {
             scene->removeChildren(0, scene->getNumChildren());
@@ -89,7 +89,7 @@ protected:
         }
         osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
         sun->getLight()->setLightNum(1);
-        sun->getLight()->setPosition(osg::Vec4(-0.5f, -0.3f, 1.0f, 0.0f));
+        sun->getLight()->setPosition(osg::Vec4(-0.5f, -1.0f, 0.3f, 0.0f));
         sun->getLight()->setDiffuse(osg::Vec4(0.5f, 0.5f, 0.5f, 1.0f));
         sun->setStateSetModes(*scene->getOrCreateStateSet(), osg::StateAttribute::ON);
         scene->addChild(sun);
