@@ -14,6 +14,7 @@ run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 # The installed plugins are found beside the installed libraries.
 set(ENV{OSG_LIBRARY_PATH} ${SCRATCH}/prefix/${LIBDIR})
 run(${SCRATCH}/build/consumer ${SCRATCH}/scene.osgt)
+run(${SCRATCH}/build/consumer_labels ${SCRATCH}/labels.osgt)
 # No installed file may point back into the build tree.
 file(GLOB_RECURSE configs ${SCRATCH}/prefix/*.cmake)
 foreach(config IN LISTS configs)

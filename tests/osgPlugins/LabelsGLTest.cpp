@@ -7,7 +7,10 @@
 #include <osgLabels/LabelKeys.h>
 #include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelScene.h>
+#include <osgLabels/PrimitiveBatch.h>
 
+#include <osg/LightSource>
+#include <osg/ShapeDrawable>
 #include <osgDB/ReadFile>
 #include <osgDB/WriteFile>
 
@@ -62,6 +65,39 @@ protected:
         return dynamic_cast<LabelScene*>(node.get());
     }
 
+    /// A box before a wall under a sun: as a batch or as meshes. The file's name.
+    std::string writeThings(bool batched) const
+    {
+        osg::ref_ptr<osg::Group> scene = new osg::Group;
+        osg::ref_ptr<osgLabels::PrimitiveBatch> batch = new osgLabels::PrimitiveBatch;
+        const auto add = [&](const osg::Vec3& center, const osg::Vec3& half)
+        {
+            osgLabels::Primitive box;
+            box.position = center;
+            box.size = half;
+            batch->add(box);
+            scene->addChild(new osg::ShapeDrawable(
+                new osg::Box(center, 2.0f * half.x(), 2.0f * half.y(), 2.0f * half.z())));
+        };
+        add(osg::Vec3(0.0f, 2.0f, 0.0f), osg::Vec3(3.0f, 0.1f, 3.0f));
+        add(osg::Vec3(0.0f, 0.0f, 0.0f), osg::Vec3(0.8f, 0.3f, 0.8f));
+        if (batched)
+        {
+            scene->removeChildren(0, scene->getNumChildren());
+            batch->build();
+            scene->addChild(batch);
+        }
+        osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
+        sun->getLight()->setLightNum(1);
+        sun->getLight()->setPosition(osg::Vec4(-0.5f, -1.0f, 0.3f, 0.0f));
+        sun->getLight()->setDiffuse(osg::Vec4(0.5f, 0.5f, 0.5f, 1.0f));
+        sun->setStateSetModes(*scene->getOrCreateStateSet(), osg::StateAttribute::ON);
+        scene->addChild(sun);
+        const std::string file = _folder.file(batched ? "batch.osgt" : "meshes.osgt");
+        EXPECT_TRUE(osgDB::writeNodeFile(*scene, file));
+        return file;
+    }
+
     const std::string _model = _folder.write("things.iv", Things);
 };
 
@@ -100,6 +136,17 @@ TEST_F(LabelsPlugin, bothKitsDrawTheSameInEitherOrder)
     EXPECT_TRUE(support::CompareImage()(inner, outer, "labels.order"));
     EXPECT_GT(shareOf(*inner, 0), 0.002);
     EXPECT_TRUE(differ(*inner, *shadowed));
+}
+
+TEST_F(LabelsPlugin, batchesCastAndReceiveShadowsLikeMeshes)
+{
+    const Picture batch = view(writeThings(true) + ".shadowvolume");
+    const Picture meshes = view(writeThings(false) + ".shadowvolume");
+    const Picture flat = view(writeThings(true) + ".(shadows=off).shadowvolume");
+    ASSERT_TRUE(batch && meshes && flat);
+    EXPECT_TRUE(differ(*batch, *flat));
+    // Edges of the two tessellations may round to neighbouring pixels.
+    EXPECT_TRUE((support::CompareImage{4.0 / 255.0, 0.005, 1.0}(batch, meshes, "labels.batch")));
 }
 
 TEST_F(LabelsPlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
