@@ -74,19 +74,27 @@ void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet
 {
     osg::State& state = *renderInfo.getState();
     const bool hasProgram = over.getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
-    std::vector<SurfaceItem> selected;
+    // What is drawn many times has its places from a program with its VertexSnippet.
+    std::vector<SurfaceItem> selected, instanced;
     forEachItem(
         [&](const SurfaceItem& item)
         {
             if (!item.variant || !select(item))
                 return;
-            selected.push_back(item);
-            // What is drawn many times has its places from a program with its VertexSnippet.
-            if (hasProgram && !item.variant->getKey().instance)
+            const bool keepsProgram = hasProgram && item.variant->getKey().instance;
+            (keepsProgram ? instanced : selected).push_back(item);
+            if (hasProgram && !keepsProgram)
                 selected.back().variant = nullptr;
         });
     state.pushStateSet(&over);
     draw(renderInfo, selected.data(), selected.size());
+    state.popStateSet();
+    if (instanced.empty())
+        return;
+    osg::ref_ptr<osg::StateSet> withoutProgram = new osg::StateSet(over);
+    withoutProgram->removeAttribute(osg::StateAttribute::PROGRAM);
+    state.pushStateSet(withoutProgram);
+    draw(renderInfo, instanced.data(), instanced.size());
     state.popStateSet();
 }
 

@@ -87,6 +87,7 @@ osg::ref_ptr<osg::Group> room(bool hasGlass = false)
 void expectSame(osg::Node& model, const std::string& name, support::HeadlessViewer& in = viewer())
 {
     SCOPED_TRACE(name);
+    in.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
     const auto look = [&](osg::Node* node) { return in.render(node, fromFront(), Width, Height, 2); };
     const auto innerShadows = labelled(shadowed(&model), Plain);
     const auto innerLabels = labelled(&model, Plain);
