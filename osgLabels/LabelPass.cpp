@@ -90,8 +90,8 @@ bool isPoints(const osg::Drawable& drawable)
     if (!geometry || geometry->getNumPrimitiveSets() == 0)
         return false;
     const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::all_of(sets.begin(), sets.end(), [](const auto& primitives)
-                       { return primitives->getMode() == GL_POINTS; });
+    return std::all_of(sets.begin(), sets.end(),
+                       [](const auto& primitives) { return primitives->getMode() == GL_POINTS; });
 }
 
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
@@ -379,7 +379,8 @@ void LabelPass::clear(osg::State& state) const
     const auto& gl = Extensions::instance();
     const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
     gl.clearBufferuiv(GL_COLOR, 1, nothing);
-    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view already.
+    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view
+    // already.
     const GLfloat far = 1.0f;
     if (_passes == 0)
         gl.clearBufferfv(GL_DEPTH, 0, &far);
@@ -403,8 +404,8 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
 {
     osg::State& state = *renderInfo.getState();
     const int samples = _target.samples;
-    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
-        *_resources->programs.getComposite(_languageVersion, samples, _isPaged));
+    osg::ref_ptr<osg::StateSet> pass =
+        new osg::StateSet(*_resources->programs.getComposite(_languageVersion, samples, _isPaged));
     pass->merge(*_targets->getStateSet());
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));

@@ -20,8 +20,8 @@ namespace osgLabels
 /// Bits of SurfaceKey::output.
 enum OutputBits : std::uint32_t
 {
-    Diverted = 1,   ///< Writes the targets of the first pass.
-    Labelled = 2,   ///< Has an object record.
+    Diverted = 1,     ///< Writes the targets of the first pass.
+    Labelled = 2,     ///< Has an object record.
     IndexUniform = 4, ///< The record's index is a uniform, not an attribute.
     Paged = 8         ///< Buffers are 2D arrays.
 };
