@@ -15,7 +15,7 @@ struct OSGMULTIRENDER_EXPORT DrawTarget
     /// Rows count from the top: Mesa draws windows upside down, and so their samples lie elsewhere
     /// in a pixel than those of framebuffer objects.
     bool flipped = false;
-    GLenum colorFormat = GL_RGBA8; ///< As precise as the target's, with alpha.
+    GLenum colorFormat = GL_RGBA8;             ///< As precise as the target's, with alpha.
     GLenum depthFormat = GL_DEPTH_COMPONENT24; ///< For textures that are copied into it.
     bool hasDepth = true;
     bool several = false; ///< More than one colour buffer is written.

@@ -6,8 +6,8 @@
 
 #include <osg/ContextData>
 #include <osg/GLObjects>
-#include <osg/State>
 #include <osg/Shader>
+#include <osg/State>
 #include <osg/Uniform>
 
 namespace osgMultiRender

@@ -151,8 +151,7 @@ TEST_P(InventorModel, keepsItsLookUnderLabels)
     const osg::ref_ptr<osg::Node> model = readModel(GetParam());
     ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
     support::NotifyCapture notify;
-    expectOwnLook(model,
-                  support::CameraSpec::overview(*model, double(SmallWidth) / SmallHeight),
+    expectOwnLook(model, support::CameraSpec::overview(*model, double(SmallWidth) / SmallHeight),
                   caseName(GetParam()));
 }
 
@@ -181,8 +180,9 @@ TEST(LabelLook, ownProgramsKeepTheirLook)
 {
     OSGKITS_NEED_GL(litViewer());
     support::NotifyCapture notify;
-    const char* const vertex = "varying vec3 where;\n"
-                               "void main() { where = gl_Vertex.xyz; gl_Position = ftransform(); }\n";
+    const char* const vertex =
+        "varying vec3 where;\n"
+        "void main() { where = gl_Vertex.xyz; gl_Position = ftransform(); }\n";
     const char* const fragments[] = {
         "varying vec3 where;\n"
         "void main() { gl_FragColor = vec4(fract(where * 3.0), 1.0); }\n",
@@ -204,12 +204,12 @@ TEST(LabelLook, ownProgramsKeepTheirLook)
         const auto geode =
             named("Tag 42", rectangle({-1, 0, -0.8f}, {2, 0.5f, 0}, {0, 0, 1.6f}, {1, 1, 1, 1}));
         osg::ref_ptr<osg::Program> program = new osg::Program;
-        program->addShader(new osg::Shader(osg::Shader::VERTEX,
-                                           i == 2 ? "#version 330 compatibility\n"
-                                                    "out vec3 where;\n"
-                                                    "void main() { where = gl_Vertex.xyz; "
-                                                    "gl_Position = ftransform(); }\n"
-                                                  : vertex));
+        program->addShader(
+            new osg::Shader(osg::Shader::VERTEX, i == 2 ? "#version 330 compatibility\n"
+                                                          "out vec3 where;\n"
+                                                          "void main() { where = gl_Vertex.xyz; "
+                                                          "gl_Position = ftransform(); }\n"
+                                                        : vertex));
         program->addShader(new osg::Shader(osg::Shader::FRAGMENT, fragments[i]));
         geode->getOrCreateStateSet()->setAttribute(program);
         expectOwnLook(geode, fromFront(), "ownProgram" + std::to_string(i));

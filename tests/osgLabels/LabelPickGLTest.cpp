@@ -28,10 +28,10 @@ osg::ref_ptr<osg::Group> unit()
     osg::ref_ptr<osg::Group> root = new osg::Group;
     osg::ref_ptr<osg::Group> group = new osg::Group;
     group->setName("unit 7");
-    group->addChild(
-        named("P-101", rectangle({-1, 0, -0.4f}, {0.9f, 0, 0}, {0, 0, 0.8f}, {0.9f, 0.8f, 0.8f, 1})));
-    group->addChild(
-        named("P-102", rectangle({0.1f, 0, -0.4f}, {0.9f, 0, 0}, {0, 0, 0.8f}, {0.8f, 0.8f, 1, 1})));
+    group->addChild(named(
+        "P-101", rectangle({-1, 0, -0.4f}, {0.9f, 0, 0}, {0, 0, 0.8f}, {0.9f, 0.8f, 0.8f, 1})));
+    group->addChild(named(
+        "P-102", rectangle({0.1f, 0, -0.4f}, {0.9f, 0, 0}, {0, 0, 0.8f}, {0.8f, 0.8f, 1, 1})));
     root->addChild(group);
     root->addChild(rectangle({-0.2f, 0.2f, 0.5f}, {0.4f, 0, 0}, {0, 0, 0.4f}, {1, 1, 1, 1}));
     return root;

@@ -74,8 +74,7 @@ private:
     static std::shared_ptr<osgLabels::GlyphSet> makeGlyphs()
     {
         std::string error;
-        return std::make_shared<osgLabels::GlyphSet>(
-            osgLabels::FontFace::openOrDefault({}, error));
+        return std::make_shared<osgLabels::GlyphSet>(osgLabels::FontFace::openOrDefault({}, error));
     }
     int getHeight() const { return 2 * int(getEm() / 2.0) + 2; }
     /// Height of a row of pixels over the line's bottom.
@@ -194,8 +193,8 @@ TEST_F(LabelReadBack, eachGlyphAndEachLength)
 
 TEST_F(LabelReadBack, eachIdentifier)
 {
-    const std::uint32_t identifiers[] = {1, 255, 256, 65535, 65536, (1u << 24) + 1, 0x7ffffffeu,
-                                         0x7fffffffu};
+    const std::uint32_t identifiers[] = {1,           255,        256, 65535, 65536, (1u << 24) + 1,
+                                         0x7ffffffeu, 0x7fffffffu};
     std::vector<std::string> texts;
     for (std::size_t i = 0; i < 8; ++i)
         texts.push_back(textOf(10, i));

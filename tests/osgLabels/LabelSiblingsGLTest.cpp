@@ -248,37 +248,40 @@ TEST_F(LabelSiblings, rasterStateOfSurfacesCounts)
     };
     for (bool above : {false, true})
     {
-        state("colorMask",
-              [](osg::StateSet& s)
-              { s.setAttributeAndModes(new osg::ColorMask(true, false, true, true)); },
-              above);
-        state("lines",
-              [](osg::StateSet& s)
-              {
-                  s.setAttributeAndModes(
-                      new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK,
-                                           osg::PolygonMode::LINE),
-                      On::ON | On::OVERRIDE);
-              },
-              above);
-        state("scissor",
-              [](osg::StateSet& s)
-              { s.setAttributeAndModes(new osg::Scissor(60, 40, 100, 90)); },
-              above);
-        state("logic",
-              [](osg::StateSet& s)
-              { s.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::COPY_INVERTED)); },
-              above);
-        state("alphaTest",
-              [](osg::StateSet& s)
-              { s.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.7f)); },
-              above);
+        state(
+            "colorMask",
+            [](osg::StateSet& s)
+            { s.setAttributeAndModes(new osg::ColorMask(true, false, true, true)); },
+            above);
+        state(
+            "lines",
+            [](osg::StateSet& s)
+            {
+                s.setAttributeAndModes(
+                    new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::LINE),
+                    On::ON | On::OVERRIDE);
+            },
+            above);
+        state(
+            "scissor",
+            [](osg::StateSet& s) { s.setAttributeAndModes(new osg::Scissor(60, 40, 100, 90)); },
+            above);
+        state(
+            "logic",
+            [](osg::StateSet& s)
+            { s.setAttributeAndModes(new osg::LogicOp(osg::LogicOp::COPY_INVERTED)); },
+            above);
+        state(
+            "alphaTest",
+            [](osg::StateSet& s)
+            { s.setAttributeAndModes(new osg::AlphaFunc(osg::AlphaFunc::GREATER, 0.7f)); },
+            above);
     }
     state("points",
           [](osg::StateSet& s)
           {
-              s.setAttributeAndModes(new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK,
-                                                          osg::PolygonMode::POINT));
+              s.setAttributeAndModes(
+                  new osg::PolygonMode(osg::PolygonMode::FRONT_AND_BACK, osg::PolygonMode::POINT));
           });
     state("offset",
           [](osg::StateSet& s) { s.setAttributeAndModes(new osg::PolygonOffset(-1.0f, -64.0f)); });

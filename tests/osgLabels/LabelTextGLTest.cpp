@@ -42,10 +42,10 @@ osg::ref_ptr<osg::Group> boards(int rows)
     const float height = 1.8f / float(rows);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < 4; ++i)
-            group->addChild(named("T" + std::to_string(100 + 4 * j + i),
-                                  rectangle({-1.2f + 0.6f * float(i), 0, -0.9f + height * float(j)},
-                                            {0.58f, 0, 0}, {0, 0, 0.95f * height},
-                                            {0.9f, 0.9f, 0.8f, 1})));
+            group->addChild(
+                named("T" + std::to_string(100 + 4 * j + i),
+                      rectangle({-1.2f + 0.6f * float(i), 0, -0.9f + height * float(j)},
+                                {0.58f, 0, 0}, {0, 0, 0.95f * height}, {0.9f, 0.9f, 0.8f, 1})));
     return group;
 }
 
@@ -153,8 +153,8 @@ TEST_F(LabelText, manyThreadsMayChangeItWhileItIsDrawn)
         thread.join();
     for (unsigned int i = 1; i <= 40; ++i)
         scene->setText(i, "T" + std::to_string(99 + i));
-    EXPECT_TRUE(areEqual(render(*scene, fromFront(), Width, Height, 1), render(*labelled(boards(10))),
-                         "labelText.threads"));
+    EXPECT_TRUE(areEqual(render(*scene, fromFront(), Width, Height, 1),
+                         render(*labelled(boards(10))), "labelText.threads"));
 }
 
 TEST_F(LabelText, aThousandTogglesLeaveNothingBehind)

@@ -35,8 +35,8 @@ osg::ref_ptr<osg::Group> plant()
     group->addChild(named("P-101 A/B", rectangle({-1.2f, 0.3f, -0.2f}, {2.4f, 0, 0}, {0, 0, 0.9f},
                                                  {0.8f, 0.7f, 0.5f, 1.0f})));
     group->addChild(box("VESSEL", {0.0f, 0.0f, -0.55f}, {0.9f, 0.2f, 0.25f}));
-    const auto pane = named(
-        "GLASS", rectangle({0.1f, -0.5f, -0.3f}, {0.7f, 0, 0}, {0, 0, 0.7f}, {0.3f, 0.6f, 1, 0.5f}));
+    const auto pane = named("GLASS", rectangle({0.1f, -0.5f, -0.3f}, {0.7f, 0, 0}, {0, 0, 0.7f},
+                                               {0.3f, 0.6f, 1, 0.5f}));
     pane->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
     pane->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
     group->addChild(pane);
@@ -123,8 +123,8 @@ osg::ref_ptr<osg::Group> throughTexture(osg::Node* node, GLenum format, unsigned
     camera->attach(osg::Camera::COLOR_BUFFER, texture, 0, 0, false, samples, samples);
     camera->addChild(node);
     const float aspect = float(Width) / Height;
-    const auto screen = osg::createTexturedQuadGeometry({-aspect, 0, -1}, {2 * aspect, 0, 0},
-                                                        {0, 0, 2});
+    const auto screen =
+        osg::createTexturedQuadGeometry({-aspect, 0, -1}, {2 * aspect, 0, 0}, {0, 0, 2});
     screen->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
     screen->getOrCreateStateSet()->setTextureAttributeAndModes(0, texture);
     osg::ref_ptr<osg::Group> root = new osg::Group;
@@ -157,8 +157,8 @@ TEST_F(LabelViews, severalViewsInOneWindowEachHaveTheirLabels)
     for (int i = 0; i < 2; ++i)
     {
         osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
-        captures[i] = setUp(*view->getCamera(), window, i ? Width + 37 : 13, i ? 41 : 7, Width,
-                            Height);
+        captures[i] =
+            setUp(*view->getCamera(), window, i ? Width + 37 : 13, i ? 41 : 7, Width, Height);
         const CameraSpec spec = i ? fromLeft() : fromFront();
         view->getCamera()->setViewMatrix(spec.view);
         view->getCamera()->setProjectionMatrix(spec.projection);
@@ -316,10 +316,9 @@ TEST_F(LabelViews, threadsDoNotChangeThePicture)
 {
     const auto alone = labelled(plant());
     const Picture expected = reference(*alone, fromFront());
-    for (const auto threading :
-         {osgViewer::ViewerBase::DrawThreadPerContext,
-          osgViewer::ViewerBase::CullDrawThreadPerContext,
-          osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
+    for (const auto threading : {osgViewer::ViewerBase::DrawThreadPerContext,
+                                 osgViewer::ViewerBase::CullDrawThreadPerContext,
+                                 osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
     {
         support::HeadlessSettings settings{Width, Height};
         settings.threading = threading;
