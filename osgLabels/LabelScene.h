@@ -21,8 +21,9 @@ class LabelResources;
 ///
 /// Each named object carries its name: one draw writes colour, identifier and place on the label, a
 /// pass over the screen then puts glyphs there, so that the cost hardly depends on the number of
-/// labels. Nothing of the model is changed. Opaque surfaces in bins sorted by state go that way;
-/// blended and depth-sorted ones get their label while they are drawn. Where nothing labelled is in
+/// labels. Nothing of the model is changed. Opaque surfaces in bins sorted by state go that way,
+/// see SurfaceState::isCopyable(); others get their label while they are drawn, in a bin sorted by
+/// state after those. Points carry none. Where nothing labelled is in
 /// view leaves are drawn as without the group. Prado, Raposo, Real-Time Label Visualization in
 /// Massive CAD Models, 2013. Requires GL 3.3 compatibility.
 class OSGLABELS_EXPORT LabelScene : public osgMultiRender::SurfaceGroup
