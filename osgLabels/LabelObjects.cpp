@@ -35,8 +35,13 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     }
     constexpr std::size_t bytes = sizeof(Words);
     const std::size_t first = _batches.getNumObjects();
-    if (!context.texture->resize(state, (first + _records.size()) * bytes))
+    unsigned int batches = 0;
+    _batches.forEach([&](const PrimitiveBatch& batch, std::uint32_t)
+                     { batches += batch.getModifiedCount(); });
+    const bool isKept = context.texture->resize(state, (first + _records.size()) * bytes);
+    if (!isKept || context.batches != batches)
     {
+        context.batches = batches;
         writeAll(state, *context.texture);
         context.changes = _changed.size();
     }

@@ -45,7 +45,8 @@ private:
     {
         osg::ref_ptr<osg::StateSet> stateSet;
         osg::ref_ptr<BufferTexture> texture;
-        std::size_t changes = 0; ///< How many of _changed it has taken.
+        std::size_t changes = 0;  ///< How many of _changed it has taken.
+        unsigned int batches = 0; ///< Modified counts of the batches that it has.
     };
 
     void writeAll(osg::State& state, BufferTexture& texture) const;

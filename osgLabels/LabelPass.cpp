@@ -2,12 +2,9 @@
 #include <osgLabels/LabelPass.h>
 
 #include <osgLabels/ChunkMesh.h>
-#include <osgLabels/LabelUnits.h>
+#include <osgLabels/LabelExtensions.h>
 #include <osgLabels/PrimitiveRun.h>
 
-#include <osg/BlendFunc>
-#include <osg/ColorMask>
-#include <osg/Depth>
 #include <osg/GLExtensions>
 #include <osg/Geometry>
 #include <osg/Viewport>
@@ -22,37 +19,14 @@ namespace osgLabels
 
 using osgMultiRender::SurfaceItem;
 using osgMultiRender::SurfaceKey;
-using osgMultiRender::SurfaceSnippet;
 
 namespace
 {
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
 /// The object index' vertex attribute: free beside those of the fixed function on all drivers.
 constexpr unsigned int indexAttribute = 6;
-
-/// What OSG does not load.
-struct Extensions
-{
-    void(GL_APIENTRY* vertexAttribI1i)(GLuint, GLint) = nullptr;
-    void(GL_APIENTRY* clearBufferuiv)(GLenum, GLint, const GLuint*) = nullptr;
-    void(GL_APIENTRY* clearBufferfv)(GLenum, GLint, const GLfloat*) = nullptr;
-
-    static const Extensions& instance()
-    {
-        static const Extensions extensions = []
-        {
-            Extensions e;
-            osg::setGLExtensionFuncPtr(e.vertexAttribI1i, "glVertexAttribI1i");
-            osg::setGLExtensionFuncPtr(e.clearBufferuiv, "glClearBufferuiv");
-            osg::setGLExtensionFuncPtr(e.clearBufferfv, "glClearBufferfv");
-            return e;
-        }();
-        return extensions;
-    }
-};
 
 bool isParallel(const osg::Matrixd& projection)
 {
@@ -248,80 +222,6 @@ bool LabelPass::isInView(const osgMultiRender::SurfaceState& state) const
 
 void LabelPass::end(osg::RenderInfo&) {}
 
-SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
-{
-    SurfaceSnippet snippet;
-    const bool diverted = key.output & Diverted;
-    if (diverted)
-        snippet.fragment = LabelSources::surface();
-    addTexCoords(key, snippet);
-    if (key.output & Labelled)
-    {
-        addIndex(key, snippet);
-        if (!diverted)
-            addLabel(key, snippet);
-    }
-    if (!diverted)
-        return snippet;
-    snippet.fragment += "uniform int osgLabels_frame;\n";
-    snippet.statements += "    osgLabels_writeSurface(" +
-                          std::string(key.output & Labelled ? "osgLabels_index" : "0") +
-                          ", osgLabels_frame);\n";
-    return snippet;
-}
-
-void LabelPass::addIndex(const SurfaceKey& key, SurfaceSnippet& snippet)
-{
-    if (key.output & IndexUniform)
-    {
-        snippet.fragment += "uniform int osgLabels_index;\n";
-        return;
-    }
-    // A PrimitiveBatch' VertexSnippet has the inputs already.
-    snippet.vertex += "#ifndef OSGLABELS_OBJECT\n"
-                      "#define OSGLABELS_OBJECT\n"
-                      "layout(location = 6) in int osgLabels_object;\n"
-                      "uniform int osgLabels_recordBase;\n"
-                      "#endif\n"
-                      "flat out int osgLabels_index;\n";
-    snippet.vertexStatements +=
-        "    osgLabels_index = osgLabels_object + gl_InstanceID + osgLabels_recordBase;\n";
-    snippet.fragment += "flat in int osgLabels_index;\n";
-}
-
-void LabelPass::addTexCoords(const SurfaceKey& key, SurfaceSnippet& snippet) const
-{
-    const bool diverted = key.output & Diverted, given = key.output & TexCoords;
-    if (given)
-    {
-        const std::string unit = std::to_string(key.output >> UnitShift);
-        snippet.vertex += "out vec2 osgLabels_texCoord;\n";
-        snippet.vertexStatements += "    osgLabels_texCoord = gl_MultiTexCoord" + unit + ".xy;\n";
-        snippet.fragment += "in vec2 osgLabels_texCoord;\n";
-    }
-    if (!diverted || _resources->settings.texCoord < 0)
-        return;
-    snippet.fragment += "layout(location = 2) out vec2 osgLabels_outTexCoord;\n"
-                        "layout(location = 3) out vec4 osgLabels_outChange;\n";
-    snippet.statements += given ? "    osgLabels_outTexCoord = osgLabels_texCoord;\n"
-                                  "    osgLabels_outChange = vec4(dFdx(osgLabels_texCoord), "
-                                  "dFdy(osgLabels_texCoord));\n"
-                                : "    osgLabels_outTexCoord = vec2(0.0);\n"
-                                  "    osgLabels_outChange = vec4(0.0);\n";
-}
-
-void LabelPass::addLabel(const SurfaceKey& key, SurfaceSnippet& snippet) const
-{
-    snippet.fragment += LabelSources::locate(_resources->getDefines(key.output & Paged, ~0u)) +
-                        LabelSources::ink() + LabelSources::direct();
-    snippet.statements +=
-        key.output & TexCoords
-            ? "    osgmr_out0 = osgLabels_direct(osgmr_out0, osgLabels_index, osgLabels_texCoord, "
-              "vec4(dFdx(osgLabels_texCoord), dFdy(osgLabels_texCoord)));\n"
-            : "    osgmr_out0 = osgLabels_direct(osgmr_out0, osgLabels_index, vec2(0.0), "
-              "vec4(0.0));\n";
-}
-
 const osg::StateSet* LabelPass::startRun()
 {
     _applied.clear();
@@ -386,7 +286,7 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     if (bits & IndexUniform)
         gl->glUniform1i(program.getUniformLocation(indexName), index.object);
     else
-        Extensions::instance().vertexAttribI1i(indexAttribute, index.object);
+        LabelExtensions::instance().vertexAttribI1i(indexAttribute, index.object);
     Applied& applied = _applied[&variant];
     if (!applied.isSet || applied.recordBase != index.base)
         gl->glUniform1i(program.getUniformLocation(baseName), index.base);
@@ -431,101 +331,6 @@ LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32
 bool LabelPass::diverts(const SurfaceItem& item) const
 {
     return item.variant->getKey().output & Diverted;
-}
-
-void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw)
-{
-    osg::State& state = *renderInfo.getState();
-    {
-        osgMultiRender::FramebufferVisit visit(state);
-        osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
-        base->setAttribute(
-            new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), Over);
-        base->setAttribute(new osg::ColorMask, Over);
-        base->setMode(GL_BLEND, Never);
-        state.pushStateSet(base);
-        _targets->bind(state);
-        clear(state);
-        draw();
-        state.popStateSet();
-        readPicked(state);
-    }
-    composite(renderInfo);
-    ++_passes;
-}
-
-void LabelPass::clear(osg::State& state) const
-{
-    osg::ref_ptr<osg::StateSet> writes = new osg::StateSet;
-    writes->setAttributeAndModes(new osg::Depth, Over);
-    state.pushStateSet(writes);
-    state.apply();
-    const auto& gl = Extensions::instance();
-    const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
-    gl.clearBufferuiv(GL_COLOR, 1, nothing);
-    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view
-    // already.
-    const GLfloat far = 1.0f;
-    if (_passes == 0)
-        gl.clearBufferfv(GL_DEPTH, 0, &far);
-    state.popStateSet();
-}
-
-void LabelPass::readPicked(osg::State& state)
-{
-    if (!_asked)
-        return;
-    const auto pixel = [](double at, int first, int size)
-    { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
-    const unsigned int index =
-        _targets->readIndex(state, pixel(_asked->x, _viewport[0], _viewport[2]),
-                            pixel(_asked->y, _viewport[1], _viewport[3]));
-    if (index != LabelTargets::Nothing)
-        _picked = _resources->objects.getIdentifier(index);
-}
-
-void LabelPass::composite(osg::RenderInfo& renderInfo)
-{
-    osg::State& state = *renderInfo.getState();
-    const int samples = _target.samples;
-    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(*_resources->programs.getComposite(
-        _languageVersion, samples,
-        _resources->getDefines(_isPaged, _resources->objects.getShapes())));
-    _targets->setFrames(state, _frames.data(), _frames.size() * sizeof(Frame));
-    pass->addUniform(
-        new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
-                                                         2.0f / float(std::max(1, _viewport[2])),
-                                                         2.0f / float(std::max(1, _viewport[3])))));
-    pass->merge(*_targets->getStateSet());
-    pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
-                                      _target.flipped ? _targets->getLayout().height : 0));
-    pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
-                       Over);
-    osg::ref_ptr<osg::Uniform> sample = new osg::Uniform("osgLabels_sample", 0);
-    if (samples > 1)
-        pass->addUniform(sample);
-    state.pushStateSet(_under);
-    state.pushStateSet(pass);
-    const auto* gl = state.get<osg::GLExtensions>();
-    constexpr GLenum sampleMask = 0x8E51;
-    for (int i = 0; i < samples; ++i)
-    {
-        sample->set(i);
-        state.apply();
-        if (samples > 1)
-        {
-            glEnable(sampleMask);
-            gl->glSampleMaski(0, 1u << i);
-        }
-        _resources->screen->draw(renderInfo);
-    }
-    if (samples > 1)
-    {
-        gl->glSampleMaski(0, ~0u);
-        glDisable(sampleMask);
-    }
-    state.popStateSet();
-    state.popStateSet();
 }
 
 void LabelPass::drawn(osg::RenderInfo&)

@@ -31,7 +31,7 @@ enum OutputBits : std::uint32_t
     UnitShift = 8
 };
 
-/// Writes places on labels beside the colours, then the glyphs, for one view of one frame.
+/// Writes objects and distances beside the colours, then the glyphs, for one view of one frame.
 class LabelPass : public osgMultiRender::SurfacePass
 {
 public:

@@ -19,7 +19,7 @@ class LabelResources;
 
 /// A scene with text on the surfaces of its objects.
 ///
-/// Each named object carries its name: one draw writes colour, identifier and place on the label, a
+/// Each named object carries its name: one draw writes colour, object and distance, a
 /// pass over the screen then puts glyphs there, so that the cost hardly depends on the number of
 /// labels. Nothing of the model is changed. Opaque surfaces in bins sorted by state go that way,
 /// see SurfaceState::isCopyable(); others get their label while they are drawn, in a bin sorted by

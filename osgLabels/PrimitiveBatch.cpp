@@ -196,6 +196,14 @@ void PrimitiveBatch::setIdentifier(unsigned int object, std::uint32_t identifier
     page->setIdentifier(inPage, identifier);
 }
 
+unsigned int PrimitiveBatch::getModifiedCount() const
+{
+    unsigned int count = 0;
+    for (const osg::ref_ptr<RecordPage>& page : _pages)
+        count += page->getModifiedCount();
+    return count;
+}
+
 std::uint32_t PrimitiveBatch::getIdentifier(unsigned int object) const
 {
     const auto [page, inPage] = find(object);

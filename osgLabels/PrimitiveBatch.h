@@ -70,6 +70,8 @@ public:
     /// The label of the object; 0, as at first, for none. Is not written to files.
     void setIdentifier(unsigned int object, std::uint32_t identifier);
     std::uint32_t getIdentifier(unsigned int object) const;
+    /// Grows when a record changes.
+    unsigned int getModifiedCount() const;
 
     /// The object that an intersection, by drawable and primitive index, has hit; -1 for drawables
     /// that are no PrimitiveRun.

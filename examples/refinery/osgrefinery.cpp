@@ -2,7 +2,9 @@
 #include "Drawables.h"
 #include "Inventor.h"
 
+#include <osg/Version>
 #include <osgDB/FileNameUtils>
+#include <osgDB/Registry>
 #include <osgDB/WriteFile>
 
 #include <cstdio>
@@ -142,6 +144,16 @@ bool write(const Command& command)
     batch->reserve(command.settings.objects, std::size_t(16) * command.settings.objects);
     make(command, [&](const Primitive& primitive) { batch->add(primitive); });
     batch->build();
+    // Without it the file would be written, without the objects.
+    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(
+            "osgLabels::PrimitiveBatch"))
+    {
+        std::fprintf(stderr,
+                     "osgrefinery: the plugin osgdb_serializers_osglabels is not found; set "
+                     "OSG_LIBRARY_PATH to the folder that holds osgPlugins-%s\n",
+                     osgGetVersion());
+        return false;
+    }
     return osgDB::writeNodeFile(*batch, command.file);
 }
 

@@ -102,7 +102,10 @@ TEST_F(LabelText, changedByAnotherThreadShowsInTheNextFrame)
     EXPECT_EQ(scene->getText(1), "27.5 °C");
     const auto other = labelled(board("27.5 °C"));
     ASSERT_TRUE(before && after);
-    EXPECT_TRUE(areEqual(after, render(*other), "labelText.changed"));
+    // The other scene has its letters' images in another order, so that coordinates round
+    // otherwise.
+    EXPECT_TRUE((support::CompareImage{1.0 / 255.0, 0.0, 1.0 / 255.0}(after, render(*other),
+                                                                      "labelText.changed")));
     EXPECT_GT(changedShare(*after, *before), 0.01);
 }
 

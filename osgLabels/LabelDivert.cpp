@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// The two passes of LabelPass over opaque leaves, and what is picked from the first.
+#include <osgLabels/LabelPass.h>
+
+#include <osgLabels/LabelExtensions.h>
+
+#include <osg/ColorMask>
+#include <osg/Depth>
+#include <osg/Viewport>
+
+#include <algorithm>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
+} // namespace
+
+void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw)
+{
+    osg::State& state = *renderInfo.getState();
+    {
+        osgMultiRender::FramebufferVisit visit(state);
+        osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
+        base->setAttribute(
+            new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), Over);
+        base->setAttribute(new osg::ColorMask, Over);
+        base->setMode(GL_BLEND, Never);
+        state.pushStateSet(base);
+        _targets->bind(state);
+        clear(state);
+        draw();
+        state.popStateSet();
+        readPicked(state);
+    }
+    composite(renderInfo);
+    ++_passes;
+}
+
+void LabelPass::clear(osg::State& state) const
+{
+    osg::ref_ptr<osg::StateSet> writes = new osg::StateSet;
+    writes->setAttributeAndModes(new osg::Depth, Over);
+    state.pushStateSet(writes);
+    state.apply();
+    const auto& gl = LabelExtensions::instance();
+    const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
+    gl.clearBufferuiv(GL_COLOR, 1, nothing);
+    // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view
+    // already.
+    const GLfloat far = 1.0f;
+    if (_passes == 0)
+        gl.clearBufferfv(GL_DEPTH, 0, &far);
+    state.popStateSet();
+}
+
+void LabelPass::readPicked(osg::State& state)
+{
+    if (!_asked)
+        return;
+    const auto pixel = [](double at, int first, int size)
+    { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
+    const unsigned int index =
+        _targets->readIndex(state, pixel(_asked->x, _viewport[0], _viewport[2]),
+                            pixel(_asked->y, _viewport[1], _viewport[3]));
+    if (index != LabelTargets::Nothing)
+        _picked = _resources->objects.getIdentifier(index);
+}
+
+void LabelPass::composite(osg::RenderInfo& renderInfo)
+{
+    osg::State& state = *renderInfo.getState();
+    const int samples = _target.samples;
+    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(*_resources->programs.getComposite(
+        _languageVersion, samples,
+        _resources->getDefines(_isPaged, _resources->objects.getShapes())));
+    _targets->setFrames(state, _frames.data(), _frames.size() * sizeof(Frame));
+    pass->addUniform(
+        new osg::Uniform("osgLabels_viewport", osg::Vec4(float(_viewport[0]), float(_viewport[1]),
+                                                         2.0f / float(std::max(1, _viewport[2])),
+                                                         2.0f / float(std::max(1, _viewport[3])))));
+    pass->merge(*_targets->getStateSet());
+    pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
+                                      _target.flipped ? _targets->getLayout().height : 0));
+    pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
+                       Over);
+    osg::ref_ptr<osg::Uniform> sample = new osg::Uniform("osgLabels_sample", 0);
+    if (samples > 1)
+        pass->addUniform(sample);
+    state.pushStateSet(_under);
+    state.pushStateSet(pass);
+    const auto* gl = state.get<osg::GLExtensions>();
+    constexpr GLenum sampleMask = 0x8E51;
+    for (int i = 0; i < samples; ++i)
+    {
+        sample->set(i);
+        state.apply();
+        if (samples > 1)
+        {
+            glEnable(sampleMask);
+            gl->glSampleMaski(0, 1u << i);
+        }
+        _resources->screen->draw(renderInfo);
+    }
+    if (samples > 1)
+    {
+        gl->glSampleMaski(0, ~0u);
+        glDisable(sampleMask);
+    }
+    state.popStateSet();
+    state.popStateSet();
+}
+
+} // namespace osgLabels
