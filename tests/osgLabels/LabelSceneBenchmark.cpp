@@ -2,12 +2,12 @@
 // What labels cost: scenes without and with them, drawn in turns from a fixed place and along a
 // path around them.
 //
-//   osgLabels.LabelSceneBenchmark [--size WxH] [--rounds N] [--path N] [--csv file] [--settings
-//   a=b] model...
+//   osgLabels.LabelSceneBenchmark [--size WxH] [--rounds N] [--path N] [--csv file]
+//       [--settings a=b] [--plain-only] model...
 //
 // plain is the model alone, off a LabelScene that shows no labels, on one that does. Printed are
 // medians over rounds, for the path of the sums over its N places; ratios are of on to off and of
-// on to plain in the same round.
+// on to plain in the same round. --plain-only: for models that bring text of their own.
 #include <support/FrameTimer.h>
 
 #include <osgLabels/LabelOptions.h>
@@ -82,11 +82,11 @@ bool load(const std::string& file, const osgLabels::LabelSettings& settings, int
     return true;
 }
 
-void measure(FrameTimer& timer, Candidate& candidate, int round)
+void measure(FrameTimer& timer, Candidate& candidate, int round, int methods)
 {
     double fixed[NumMethods] = {}, path[NumMethods] = {};
     for (std::size_t place = 0; place < candidate.cameras.size(); ++place)
-        for (int method = 0; method < NumMethods; ++method)
+        for (int method = 0; method < methods; ++method)
         {
             const double time =
                 timer.draw(*candidate.scenes[method], candidate.cameras[place]).frame;
@@ -119,6 +119,7 @@ int main(int argc, char** argv)
     if (arguments.read("--settings", text))
         for (const std::string& error : parseLabelOptions(settings, text))
             return std::fprintf(stderr, "%s\n", error.c_str()), 2;
+    const int methods = arguments.read("--plain-only") ? 1 : int(NumMethods);
     if (!options.read(arguments))
         return 2;
     FrameTimer timer(options.width, options.height);
@@ -134,11 +135,11 @@ int main(int argc, char** argv)
         if (!load(arguments[i], settings, places, timer.getAspect(), candidate))
             return std::fprintf(stderr, "%s can't be read\n", arguments[i]), 1;
         const osg::Timer_t start = osg::Timer::instance()->tick();
-        timer.drawOnce(*candidate.scenes[ON], candidate.cameras.front());
+        timer.drawOnce(*candidate.scenes[methods - 1], candidate.cameras.front());
         candidate.firstFrame =
             osg::Timer::instance()->delta_s(start, osg::Timer::instance()->tick());
         for (int round = -1; round < options.rounds; ++round)
-            measure(timer, candidate, round);
+            measure(timer, candidate, round, methods);
         std::vector<double> row;
         for (const auto& times : candidate.fixed)
             row.push_back(median(times));
