@@ -4,6 +4,7 @@
 #include <osg/NodeVisitor>
 
 #include <algorithm>
+#include <set>
 
 namespace osgLabels
 {
@@ -21,11 +22,17 @@ public:
     void apply(osg::Group& group) override
     {
         if (auto* batch = dynamic_cast<PrimitiveBatch*>(&group))
-            batches.emplace_back(batch);
+        {
+            if (_seen.insert(batch).second) // may have several parents
+                batches.emplace_back(batch);
+        }
         else
             traverse(group);
     }
     std::vector<osg::ref_ptr<PrimitiveBatch>> batches;
+
+private:
+    std::set<const PrimitiveBatch*> _seen;
 };
 
 } // namespace
@@ -49,7 +56,7 @@ std::uint32_t LabelBatches::collect(osg::Node& root, const LabelSource& source, 
             ++first;
         }
         const std::uint32_t firstRecord = _numObjects + 1;
-        _batches.push_back({batch.get(), begin, first, firstRecord});
+        _batches.push_back({batch.get(), begin, first, firstRecord, batch->getRuns()});
         for (const osg::ref_ptr<PrimitiveRun>& run : batch->getRuns())
         {
             _bases[run.get()] =

@@ -50,6 +50,8 @@ private:
     {
         osg::observer_ptr<PrimitiveBatch> batch;
         std::uint32_t firstIdentifier, endIdentifier, firstRecord;
+        /// Kept, so that no other run gets the address of one in _bases.
+        std::vector<osg::ref_ptr<PrimitiveRun>> runs;
     };
     mutable std::mutex _mutex;
     std::vector<Entry> _batches; ///< By identifiers.

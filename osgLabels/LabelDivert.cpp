@@ -6,9 +6,12 @@
 
 #include <osg/ColorMask>
 #include <osg/Depth>
+#include <osg/Notify>
 #include <osg/Viewport>
 
 #include <algorithm>
+#include <cmath>
+#include <mutex>
 
 namespace osgLabels
 {
@@ -53,15 +56,37 @@ void LabelPass::clear(osg::State& state) const
     gl.clearBufferuiv(GL_COLOR, 1, nothing);
     // Depths stay: what an earlier bin has drawn hides what comes later, but is in the view
     // already.
-    const GLfloat far = 1.0f;
+    const GLfloat farthest = 1.0f;
     if (_passes == 0)
-        gl.clearBufferfv(GL_DEPTH, 0, &far);
+        gl.clearBufferfv(GL_DEPTH, 0, &farthest);
     state.popStateSet();
+}
+
+std::string LabelPass::whyIncomplete(osg::State& state)
+{
+    const osgMultiRender::FramebufferVisit visit(state);
+    _targets->bind(state);
+    const std::string status = osgMultiRender::Framebuffer::whyIncomplete(state);
+    if (status.empty())
+        return {};
+    const std::string reason = "OpenGL can't draw into buffers of " +
+                               std::to_string(_targets->getLayout().width) + "x" +
+                               std::to_string(_targets->getLayout().height) + " pixels with " +
+                               std::to_string(_target.samples) + " samples (" + status + ")";
+    static std::once_flag said;
+    std::call_once(said,
+                   [&]
+                   {
+                       OSG_WARN << "osgLabels::LabelScene: no labels, because " << reason
+                                << "; fewer pixels or samples may help" << std::endl;
+                   });
+    return reason;
 }
 
 void LabelPass::readPicked(osg::State& state)
 {
-    if (!_asked)
+    // Nothing lies beside the view.
+    if (!_asked || !(std::abs(_asked->x) <= 1.0) || !(std::abs(_asked->y) <= 1.0))
         return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };

@@ -25,13 +25,11 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     if (!context.stateSet)
     {
         context.stateSet = new osg::StateSet;
-        const bool isPaged = BufferTexture::needsPages(state);
-        context.texture = new BufferTexture(state.getContextID(), 4, isPaged);
-        // Over those of PrimitiveBatches, whose shader reads texture buffers only.
-        context.stateSet->setTextureAttribute(RecordsUnit, context.texture,
-                                              isPaged ? osg::StateAttribute::ON
-                                                      : osg::StateAttribute::OVERRIDE);
-        context.stateSet->addUniform(new osg::Uniform("osgLabels_records", int(RecordsUnit)));
+        context.texture =
+            new BufferTexture(state.getContextID(), 4, BufferTexture::needsPages(state));
+        context.stateSet->setTextureAttribute(ObjectsUnit, context.texture,
+                                              osg::StateAttribute::OVERRIDE);
+        context.stateSet->addUniform(new osg::Uniform("osgLabels_objects", int(ObjectsUnit)));
     }
     constexpr std::size_t bytes = sizeof(Words);
     const std::size_t first = _batches.getNumObjects();

@@ -140,12 +140,14 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
         _reason = "nothing labelled is in view";
     else if (_target.several)
         _reason = "the view writes several color buffers";
+    glGetIntegerv(GL_VIEWPORT, _viewport);
+    if (_reason.empty() && (_viewport[2] <= 0 || _viewport[3] <= 0))
+        _reason = "the viewport is empty";
     if (!_reason.empty())
         return;
     const auto* gl = state.get<osg::GLExtensions>();
     _languageVersion = gl->glslLanguageVersion;
     _isPaged = _resources->buffers.isPaged(state);
-    glGetIntegerv(GL_VIEWPORT, _viewport);
     const osg::Matrixd* view =
         const_cast<osgUtil::RenderStage&>(frame.getStage()).getInitialViewMatrix();
     const osg::Vec3d up = axisOf(_resources->settings.up);
@@ -155,6 +157,7 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     _targets = _resources->targets.acquire(
         _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3],
                      _resources->settings.texCoord >= 0, _target});
+    _reason = whyIncomplete(state);
 }
 
 void LabelPass::makeUnder(osg::State& state)
@@ -184,10 +187,11 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
         return;
     const auto found = _objects.find(&leaf);
     number = found == _objects.end() ? 0 : found->second;
-    if (key.instance && _isPaged) // reads its records from a texture buffer
+    // A program of the model's own hides texture coordinates.
+    if (key.program && _resources->settings.texCoord >= 0)
         number = 0;
     if (!ordered && _target.hasDepth && state.isCopyable() && isInView(state))
-        key.output = Diverted;
+        key.output = Diverted | (_resources->settings.texCoord >= 0 ? Textured : 0u);
     if (number)
     {
         key.output |= Labelled;
@@ -196,7 +200,9 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool hasOther =
         geometry && geometry->getVertexAttribArray(indexAttribute) && !isChunk(*geometry);
-    if ((key.output & Labelled) && (key.program || hasOther))
+    const bool isOneObject =
+        key.instance && !dynamic_cast<const PrimitiveRun*>(leaf._drawable.get());
+    if ((key.output & Labelled) && (key.program || hasOther || isOneObject))
         key.output |= IndexUniform;
     if (number && !key.program && _resources->settings.texCoord >= 0)
         key.output |= TexCoords | std::uint32_t(_resources->settings.texCoord) << UnitShift;
@@ -336,7 +342,7 @@ bool LabelPass::diverts(const SurfaceItem& item) const
 void LabelPass::drawn(osg::RenderInfo&)
 {
     // Where nothing labelled is in view nothing is under the point either.
-    if (_resources && !_asked)
+    if (_resources && !_asked && !_reason.empty())
         _asked = _resources->pick.takeQuestion();
     if (_asked)
         _resources->pick.answer(_picked);

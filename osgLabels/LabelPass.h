@@ -27,6 +27,7 @@ enum OutputBits : std::uint32_t
     Paged = 8,         ///< Buffers are 2D arrays.
     Proportional = 32, ///< Letters have widths of their own.
     Outlined = 64,     ///< Letters have outlines.
+    Textured = 128,    ///< The targets have texture coordinates.
     TexCoords = 16,    ///< Texture coordinates may place the text: of the unit from bit 8.
     UnitShift = 8
 };
@@ -95,6 +96,8 @@ private:
     void clear(osg::State& state) const;
     std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
     void readPicked(osg::State& state);
+    /// Why OpenGL can't draw into the targets, said once on the console; empty where it can.
+    std::string whyIncomplete(osg::State& state);
     void composite(osg::RenderInfo& renderInfo);
     void makeUnder(osg::State& state);
 

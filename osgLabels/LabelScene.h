@@ -21,7 +21,8 @@ class LabelResources;
 ///
 /// Each named object carries its name: one draw writes colour, object and distance, a
 /// pass over the screen then puts glyphs there, so that the cost hardly depends on the number of
-/// labels. Nothing of the model is changed. Opaque surfaces in bins sorted by state go that way,
+/// labels. Nothing of the model is changed but
+/// the identifiers of PrimitiveBatches. Opaque surfaces in bins sorted by state go that way,
 /// see SurfaceState::isCopyable(); others get their label while they are drawn, in a bin sorted by
 /// state after those. Points carry none. Where nothing labelled is in
 /// view leaves are drawn as without the group. Prado, Raposo, Real-Time Label Visualization in

@@ -41,8 +41,8 @@ void LabelPass::addIndex(const SurfaceKey& key, SurfaceSnippet& snippet)
     snippet.vertex += "#ifndef OSGLABELS_OBJECT\n"
                       "#define OSGLABELS_OBJECT\n"
                       "layout(location = 6) in int osgLabels_object;\n"
-                      "uniform int osgLabels_recordBase;\n"
                       "#endif\n"
+                      "uniform int osgLabels_recordBase;\n"
                       "flat out int osgLabels_index;\n";
     snippet.vertexStatements +=
         "    osgLabels_index = osgLabels_object + gl_InstanceID + osgLabels_recordBase;\n";

@@ -10,8 +10,9 @@ enum LabelUnits
 {
     RowsUnit = 4,
     TextsUnit = 5,
-    RecordsUnit = 6, ///< Object records.
-    GlyphsUnit = 7,  ///< And the next one.
+    RecordsUnit = 6, ///< Object records of a PrimitiveBatch.
+    GlyphsUnit = 7,
+    ObjectsUnit = 8, ///< Object records of all.
     StylesUnit = 10,
     FramesUnit = 11, ///< Second pass only, as are those of LabelTargets.
     ColorsUnit = 16  ///< Of a PrimitiveBatch; read by vertex shaders only.

@@ -228,7 +228,11 @@ bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     state.pushStateSet(inputs);
     frame.drawSelected(renderInfo, _resources.passes.get(Pass::Peel, _tier),
                        [&](const SurfaceItem& item)
-                       { return isReceiver(item) && !isOpaque(item); });
+                       {
+                           // Instanced ones have their places from a program that does not peel.
+                           return isReceiver(item) && !isOpaque(item) &&
+                                  !item.variant->getKey().instance;
+                       });
     state.popStateSet();
     gl->glEndQuery(GL_SAMPLES_PASSED_ARB);
     GLuint passed = 0;

@@ -6,7 +6,6 @@
 layout(location = 6) in int osgLabels_object; // the first object of a draw
 #endif
 uniform usamplerBuffer osgLabels_records; // three texels an object, see ObjectRecord.h
-uniform int osgLabels_recordBase; // where the page begins in a buffer of several
 uniform samplerBuffer osgLabels_colors;
 
 vec3 osgLabels_unrotate(vec4 rotation, vec3 v)
@@ -35,7 +34,7 @@ void osgLabels_onFrustum(vec3 size, inout vec3 position, inout vec3 normal)
 void osgmr_instance(inout vec4 vertex, inout vec3 normal, inout vec4 color)
 {
     int object = osgLabels_object + gl_InstanceID;
-    int record = 3 * (object + osgLabels_recordBase);
+    int record = 3 * object;
     vec4 rotation = uintBitsToFloat(texelFetch(osgLabels_records, record));
     uvec4 place = texelFetch(osgLabels_records, record + 1);
     vec3 size = uintBitsToFloat(texelFetch(osgLabels_records, record + 2).xyz);

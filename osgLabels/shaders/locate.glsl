@@ -3,7 +3,7 @@
 
 uniform vec4 osgLabels_viewport; // x, y, 2 / width, 2 / height
 uniform vec2 osgLabels_line;     // height of text as a share of the room, least gap in em
-uniform osgLabels_Buffer osgLabels_records;
+uniform osgLabels_Buffer osgLabels_objects;
 
 // Of a matrix from local to clip coordinates, its inverse as the fragment needs it.
 struct osgLabels_Frame
@@ -25,9 +25,9 @@ struct osgLabels_Surface
 
 osgLabels_Object osgLabels_objectOf(uint index)
 {
-    uvec4 a = osgLabels_texel(osgLabels_records, 3u * index);
-    uvec4 b = osgLabels_texel(osgLabels_records, 3u * index + 1u);
-    uvec4 c = osgLabels_texel(osgLabels_records, 3u * index + 2u);
+    uvec4 a = osgLabels_texel(osgLabels_objects, 3u * index);
+    uvec4 b = osgLabels_texel(osgLabels_objects, 3u * index + 1u);
+    uvec4 c = osgLabels_texel(osgLabels_objects, 3u * index + 2u);
     return osgLabels_Object(uintBitsToFloat(a), uintBitsToFloat(b.xyz), b.w,
                             uintBitsToFloat(c.xyz), c.w);
 }
