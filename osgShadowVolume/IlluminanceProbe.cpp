@@ -48,8 +48,9 @@ std::vector<TriangleTree::Triangle> collectTriangles(osg::Node& scene, Transpare
         const glm::dmat4 matrix = glm::make_mat4(caster.modelview->ptr());
         const auto toWorld = [&](const glm::vec3& p)
         { return glm::dvec3(matrix * glm::dvec4(p, 1.0)); };
-        const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c)
-        { triangles.push_back({toWorld(a), toWorld(b), toWorld(c)}); };
+        const auto add = [&](const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+            triangles.push_back({toWorld(a), toWorld(b), toWorld(c)});
+        };
         std::size_t badIndices = 0;
         for (const auto& drawable : caster.source)
             badIndices += readTriangles(*drawable, add);
