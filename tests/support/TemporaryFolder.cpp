@@ -10,7 +10,9 @@ namespace support
 
 TemporaryFolder::TemporaryFolder()
 {
-    std::string pattern = (std::filesystem::temp_directory_path() / "osgkits.XXXXXX").string();
+    // mkdtemp() puts letters of its own for six X at the end.
+    const std::string name = "osgkits." + std::string(6, 'X');
+    std::string pattern = (std::filesystem::temp_directory_path() / name).string();
     if (!mkdtemp(pattern.data()))
         throw std::runtime_error("no folder can be made for " + pattern);
     _path = pattern;
