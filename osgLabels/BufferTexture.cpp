@@ -60,7 +60,7 @@ BufferTexture::BufferTexture(unsigned int contextID, unsigned int wordsPerTexel,
 }
 
 BufferTexture::BufferTexture(const BufferTexture& other, const osg::CopyOp& copyop)
-    : osg::Texture(other, copyop), _contextID(other._contextID),
+    : osgMultiRender::ContentTexture(other, copyop), _contextID(other._contextID),
       _wordsPerTexel(other._wordsPerTexel), _isPaged(other._isPaged)
 {
 }
@@ -77,11 +77,6 @@ bool BufferTexture::needsPages(osg::State& state)
     GLint texels = 0;
     glGetIntegerv(maxTextureBufferSize, &texels);
     return texels < neededTexels;
-}
-
-int BufferTexture::compare(const osg::StateAttribute& other) const
-{
-    return this < &other ? -1 : this == &other ? 0 : 1;
 }
 
 GLenum BufferTexture::getTextureTarget() const

@@ -3,7 +3,7 @@
 
 #include <osgLabels/Export.h>
 
-#include <osg/Texture>
+#include <osgMultiRender/ContentTexture.h>
 
 #include <cstddef>
 
@@ -16,7 +16,7 @@ namespace osgLabels
 /// because GL promises no more than 65536 texels in a texture buffer. Shaders read either by
 /// osgLabels_texel() of labelTable.glsl. All functions but those of osg::Texture need the context
 /// to be current; they leave the texture bound to unit 0, and osg::State knows.
-class OSGLABELS_EXPORT BufferTexture : public osg::Texture
+class OSGLABELS_EXPORT BufferTexture : public osgMultiRender::ContentTexture
 {
 public:
     static constexpr int PageSize = 1024;
@@ -36,22 +36,14 @@ public:
     unsigned int getWordsPerTexel() const { return _wordsPerTexel; }
     std::size_t getBytes() const { return _capacity; } ///< On the GPU.
 
-    int compare(const osg::StateAttribute& other) const override;
     GLenum getTextureTarget() const override;
     int getTextureWidth() const override { return PageSize; }
     int getTextureHeight() const override { return PageSize; }
-    int getTextureDepth() const override { return 1; }
-    void setImage(unsigned int, osg::Image*) override {}
-    osg::Image* getImage(unsigned int) override { return nullptr; }
-    const osg::Image* getImage(unsigned int) const override { return nullptr; }
-    unsigned int getNumImages() const override { return 0; }
     void apply(osg::State& state) const override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
 protected:
     ~BufferTexture() override;
-    void computeInternalFormat() const override {}
-    void allocateMipmap(osg::State&) const override {}
 
 private:
     BufferTexture() = default;

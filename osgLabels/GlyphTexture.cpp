@@ -45,8 +45,8 @@ GlyphTexture::GlyphTexture(GLenum format, int imageWidth, int imageHeight)
 }
 
 GlyphTexture::GlyphTexture(const GlyphTexture& other, const osg::CopyOp& copyop)
-    : osg::Texture(other, copyop), _format(other._format), _imageWidth(other._imageWidth),
-      _imageHeight(other._imageHeight), _images(other._images)
+    : osgMultiRender::ContentTexture(other, copyop), _format(other._format),
+      _imageWidth(other._imageWidth), _imageHeight(other._imageHeight), _images(other._images)
 {
 }
 
@@ -69,11 +69,6 @@ std::size_t GlyphTexture::getBytes() const
     for (const std::vector<std::uint8_t>& pixels : _images->pixels)
         bytes += pixels.size();
     return bytes;
-}
-
-int GlyphTexture::compare(const osg::StateAttribute& other) const
-{
-    return this < &other ? -1 : this == &other ? 0 : 1; // each is an atlas of its own
 }
 
 GLenum GlyphTexture::getTextureTarget() const

@@ -3,8 +3,8 @@
 
 #include <osgLabels/Export.h>
 
-#include <osg/Texture>
 #include <osg/buffered_value>
+#include <osgMultiRender/ContentTexture.h>
 
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@ namespace osgLabels
 /// Image i is in layer i & (layers - 1); what exceeds the layers that GL allows lies beside in the
 /// same layers. Each context uploads the new images only, or all when the texture had to grow to
 /// twice its size.
-class OSGLABELS_EXPORT GlyphTexture : public osg::Texture
+class OSGLABELS_EXPORT GlyphTexture : public osgMultiRender::ContentTexture
 {
 public:
     GlyphTexture() = default;
@@ -37,21 +37,13 @@ public:
     /// Of the images, which are kept here for other contexts and for growing.
     std::size_t getBytes() const;
 
-    int compare(const osg::StateAttribute& other) const override;
     GLenum getTextureTarget() const override;
     int getTextureWidth() const override { return _imageWidth; }
     int getTextureHeight() const override { return _imageHeight; }
-    int getTextureDepth() const override { return 1; }
-    void setImage(unsigned int, osg::Image*) override {}
-    osg::Image* getImage(unsigned int) override { return nullptr; }
-    const osg::Image* getImage(unsigned int) const override { return nullptr; }
-    unsigned int getNumImages() const override { return 0; }
     void apply(osg::State& state) const override;
 
 protected:
     ~GlyphTexture() override = default;
-    void computeInternalFormat() const override {}
-    void allocateMipmap(osg::State&) const override {}
 
 private:
     /// What one context holds.

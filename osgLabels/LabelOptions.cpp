@@ -11,39 +11,23 @@
 namespace osgLabels
 {
 
+using osgMultiRender::formatNumber;
+using osgMultiRender::parseNumber;
+
 namespace
 {
 
-/// The whole text as a number, in any locale.
-template <class Number> bool parseNumber(const std::string& text, Number& number)
+template <class Value> auto setterOf(Value LabelSettings::*member)
 {
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && stop == end;
-}
-
-/// The shortest text that parses to the same number.
-template <class Number> std::string toText(Number number)
-{
-    char buffer[32];
-    return std::string(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
+    return [member](LabelSettings& settings, const Value& value) { settings.*member = value; };
 }
 
 template <class Number>
 LabelOption number(const char* name, Number LabelSettings::*member, Number low, Number high,
                    const char* help)
 {
-    const std::string range = toText(low) + ".." + toText(high);
-    return {name, "<" + range + ">", help,
-            [=](LabelSettings& settings, const std::string& text) -> std::string
-            {
-                Number value;
-                if (!parseNumber(text, value) || !(value >= low && value <= high))
-                    return "'" + text + "' is no number of " + range;
-                settings.*member = value;
-                return {};
-            },
-            [=](const LabelSettings& settings) { return toText(settings.*member); }};
+    return osgMultiRender::numberOption<LabelSettings>(name, help, low, high, member,
+                                                       setterOf(member));
 }
 
 template <class Value> struct Word
@@ -56,27 +40,7 @@ template <class Value>
 LabelOption choice(const char* name, Value LabelSettings::*member,
                    const std::vector<Word<Value>>& words, const char* help)
 {
-    std::string values;
-    for (const Word<Value>& word : words)
-        values += (values.empty() ? "" : "|") + std::string(word.name);
-    return {name, values, help,
-            [=](LabelSettings& settings, const std::string& text) -> std::string
-            {
-                for (const Word<Value>& word : words)
-                    if (text == word.name)
-                    {
-                        settings.*member = word.value;
-                        return {};
-                    }
-                return "'" + text + "' is none of " + values;
-            },
-            [=](const LabelSettings& settings) -> std::string
-            {
-                for (const Word<Value>& word : words)
-                    if (settings.*member == word.value)
-                        return word.name;
-                return {};
-            }};
+    return osgMultiRender::wordOption<LabelSettings>(name, help, words, member, setterOf(member));
 }
 
 LabelOption flag(const char* name, bool LabelSettings::*member, const char* help)
@@ -169,7 +133,7 @@ LabelOption outlineOption()
                      !parseNumber(text.substr(colon + 1), width) ||
                      !(width > 0.0f && width <= LabelStyle::MaxOutline)))
                     return "'" + text + "' is neither off nor a colour and a width, 0 to " +
-                           toText(LabelStyle::MaxOutline) + ": #ffffff:0.05";
+                           formatNumber(LabelStyle::MaxOutline) + ": #ffffff:0.05";
                 style.outline = osg::Vec3(color.r(), color.g(), color.b());
                 style.outlineWidth = width;
                 return {};
@@ -179,7 +143,7 @@ LabelOption outlineOption()
                 const LabelStyle& style = settings.styles[0];
                 return style.outlineWidth == 0.0f ? std::string("off")
                                                   : toText(osg::Vec4(style.outline, 1.0f)) + ":" +
-                                                        toText(style.outlineWidth);
+                                                        formatNumber(style.outlineWidth);
             }};
 }
 
@@ -260,19 +224,7 @@ const std::vector<LabelOption>& labelOptions()
 bool setLabelOption(LabelSettings& settings, const std::string& name, const std::string& value,
                     std::string& error)
 {
-    std::string known;
-    for (const LabelOption& option : labelOptions())
-    {
-        if (option.name == name)
-        {
-            const std::string cause = option.parse(settings, value);
-            error = cause.empty() ? "" : "setting '" + name + "': " + cause;
-            return cause.empty();
-        }
-        known += (known.empty() ? "" : ", ") + option.name;
-    }
-    error = "unknown setting '" + name + "'; known are " + known;
-    return false;
+    return osgMultiRender::setOption(labelOptions(), settings, name, value, error);
 }
 
 std::string formatLabelOptions(const LabelSettings& settings)

@@ -4,24 +4,16 @@
 #include <osgLabels/Export.h>
 #include <osgLabels/LabelSettings.h>
 
-#include <functional>
+#include <osgMultiRender/Option.h>
+
 #include <string>
 #include <vector>
 
 namespace osgLabels
 {
 
-/// One setting of a LabelScene as text, as pseudo-loaders and files say it.
-struct LabelOption
-{
-    std::string name;   ///< "size".
-    std::string values; ///< What may be said: "auto|<#rrggbb>", "<0.05..0.9>".
-    std::string help;   ///< One sentence.
-    /// Sets it; returns "", or why the text is wrong, and then sets nothing.
-    std::function<std::string(LabelSettings&, const std::string& text)> parse;
-    /// The text that parse() would take for the value that the settings have.
-    std::function<std::string(const LabelSettings&)> format;
-};
+/// One setting of a LabelScene as text.
+using LabelOption = osgMultiRender::Option<LabelSettings>;
 
 /// All of them.
 OSGLABELS_EXPORT const std::vector<LabelOption>& labelOptions();

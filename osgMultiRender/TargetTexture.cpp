@@ -73,14 +73,9 @@ TargetTexture::TargetTexture(GLenum internalFormat, int width, int height, int l
 }
 
 TargetTexture::TargetTexture(const TargetTexture& other, const osg::CopyOp& copyop)
-    : osg::Texture(other, copyop), _width(other._width), _height(other._height),
+    : ContentTexture(other, copyop), _width(other._width), _height(other._height),
       _layers(other._layers), _samples(other._samples)
 {
-}
-
-int TargetTexture::compare(const osg::StateAttribute& other) const
-{
-    return this < &other ? -1 : this == &other ? 0 : 1; // each is a target of its own
 }
 
 GLenum TargetTexture::getTextureTarget() const

@@ -3,7 +3,7 @@
 
 #include <osgMultiRender/Export.h>
 
-#include <osg/Texture>
+#include <osgMultiRender/ContentTexture.h>
 
 namespace osgMultiRender
 {
@@ -11,7 +11,7 @@ namespace osgMultiRender
 /// A texture to render to, of one or several layers and samples; OSG has no multisampled arrays.
 ///
 /// Integer and float formats are read by texelFetch only.
-class OSGMULTIRENDER_EXPORT TargetTexture : public osg::Texture
+class OSGMULTIRENDER_EXPORT TargetTexture : public ContentTexture
 {
 public:
     /// `layers` 0 makes a plain 2D texture, 1 and more an array. `samples` 1 is not multisampled.
@@ -20,15 +20,10 @@ public:
                   const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
     META_StateAttribute(osgMultiRender, TargetTexture, TEXTURE)
 
-    int compare(const osg::StateAttribute& other) const override;
     GLenum getTextureTarget() const override;
     int getTextureWidth() const override { return _width; }
     int getTextureHeight() const override { return _height; }
     int getTextureDepth() const override { return _layers; }
-    void setImage(unsigned int, osg::Image*) override {}
-    osg::Image* getImage(unsigned int) override { return nullptr; }
-    const osg::Image* getImage(unsigned int) const override { return nullptr; }
-    unsigned int getNumImages() const override { return 0; }
     void apply(osg::State& state) const override;
 
     /// Attaches a layer to the framebuffer that is bound for drawing. The texture exists then.
@@ -38,8 +33,6 @@ public:
 
 protected:
     ~TargetTexture() override = default;
-    void computeInternalFormat() const override {}
-    void allocateMipmap(osg::State&) const override {}
 
 private:
     TargetTexture() = default;

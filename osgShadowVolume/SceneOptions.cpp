@@ -3,102 +3,17 @@
 
 #include <osgShadowVolume/EnumNames.h>
 
-#include <charconv>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace osgShadowVolume
 {
 
+using osgMultiRender::formatNumber;
+using osgMultiRender::parseNumber;
+
 namespace
 {
-
-/// The whole text as a number, in any locale.
-template <class Number> bool parseNumber(const std::string& text, Number& number)
-{
-    const char* end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data(), end, number);
-    return error == std::errc() && stop == end;
-}
-
-/// The shortest text that parses to the same number.
-template <class Number> std::string toText(Number number)
-{
-    char buffer[32];
-    return std::string(buffer, std::to_chars(buffer, buffer + sizeof(buffer), number).ptr);
-}
-
-/// An option of named values. `alias` is another word for one of them.
-template <class Names, class Get, class Set>
-SceneOption choice(const char* name, const char* help, const Names& names, Get get, Set set,
-                   std::pair<std::string, std::string> alias = {})
-{
-    std::string values, list;
-    for (const auto& each : names)
-    {
-        values += (values.empty() ? "" : "|") + std::string(each.name);
-        list += (list.empty() ? "" : ", ") + std::string(each.name);
-    }
-    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
-    {
-        const std::string& word = !alias.first.empty() && text == alias.first ? alias.second : text;
-        for (const auto& each : names)
-        {
-            if (word == each.name)
-            {
-                (scene.*set)(each.value);
-                return {};
-            }
-        }
-        return "'" + text + "' is none of " + list;
-    };
-    const auto format = [=](const ShadowedScene& scene) -> std::string
-    {
-        for (const auto& each : names)
-            if ((scene.*get)() == each.value)
-                return each.name;
-        return "?";
-    };
-    return {name, values, help, parse, format};
-}
-
-/// A whole number from `low` to `high`.
-template <class Get, class Set>
-SceneOption whole(const char* name, const char* help, unsigned int low, unsigned int high, Get get,
-                  Set set)
-{
-    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
-    {
-        unsigned int number = 0;
-        if (!parseNumber(text, number) || number < low || number > high)
-            return "'" + text + "' is not a whole number from " + toText(low) + " to " +
-                   toText(high);
-        (scene.*set)(number);
-        return {};
-    };
-    return {name, "<" + toText(low) + ".." + toText(high) + ">", help, parse,
-            [=](const ShadowedScene& scene) { return toText((scene.*get)()); }};
-}
-
-/// A finite number from 0 to `high`.
-template <class Get, class Set>
-SceneOption real(const char* name, const char* help, double high, Get get, Set set)
-{
-    const bool limited = std::isfinite(high);
-    const std::string values = limited ? "<0.." + toText(high) + ">" : "<number>";
-    const auto parse = [=](ShadowedScene& scene, const std::string& text) -> std::string
-    {
-        double number = 0.0;
-        if (!parseNumber(text, number) || !std::isfinite(number) || number < 0.0 || number > high)
-            return "'" + text + "' is not a number " +
-                   (limited ? "from 0 to " + toText(high) : "of at least 0");
-        (scene.*set)(number);
-        return {};
-    };
-    return {name, values, help, parse,
-            [=](const ShadowedScene& scene) { return toText((scene.*get)()); }};
-}
 
 /// The number of a light, or all of them, which the scene knows as -1.
 SceneOption lightOption()
@@ -112,7 +27,7 @@ SceneOption lightOption()
         return {};
     };
     const auto format = [](const ShadowedScene& scene)
-    { return scene.getLightShown() < 0 ? "all" : toText(scene.getLightShown()); };
+    { return scene.getLightShown() < 0 ? "all" : formatNumber(scene.getLightShown()); };
     return {"light", "all|<number>", "The one light that shines, or of which the mask is shown",
             parse, format};
 }
@@ -121,6 +36,14 @@ std::vector<SceneOption> makeOptions()
 {
     using S = ShadowedScene;
     const double infinity = std::numeric_limits<double>::infinity();
+    const auto choice = [](const char* name, const char* help, const auto& names, auto get,
+                           auto set, std::pair<std::string, std::string> alias = {})
+    { return osgMultiRender::wordOption<S>(name, help, names, get, set, alias); };
+    const auto whole = [](const char* name, const char* help, unsigned int low, unsigned int high,
+                          auto get, auto set)
+    { return osgMultiRender::numberOption<S>(name, help, low, high, get, set); };
+    const auto real = [](const char* name, const char* help, double high, auto get, auto set)
+    { return osgMultiRender::numberOption<S>(name, help, 0.0, high, get, set); };
     return {
         choice("shadows",
                "How lights cast shadows: silhouette volumes, right to the pixel; shadow maps, as "
@@ -199,18 +122,7 @@ const SceneOption* findSceneOption(const std::string& name)
 bool setSceneOption(ShadowedScene& scene, const std::string& name, const std::string& text,
                     std::string& error)
 {
-    if (const SceneOption* option = findSceneOption(name))
-    {
-        const std::string cause = option->parse(scene, text);
-        if (!cause.empty())
-            error = "setting '" + name + "=" + text + "': " + cause;
-        return cause.empty();
-    }
-    error = "setting '" + name + "=" + text + "' is not known; there are ";
-    for (const SceneOption& option : sceneOptions())
-        error +=
-            (&option == &sceneOptions().front() ? "" : ", ") + option.name + "=" + option.values;
-    return false;
+    return osgMultiRender::setOption(sceneOptions(), scene, name, text, error);
 }
 
 } // namespace osgShadowVolume

@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgMultiRender/Option.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
 namespace osgShadowVolume
 {
 
-/// One setting of a ShadowedScene as text, as pseudo-loaders, .osg files and keys say it.
-struct SceneOption
-{
-    std::string name;   ///< "shadows".
-    std::string values; ///< What may be said: "volumes|map|off", "<0..1>".
-    std::string help;   ///< One sentence.
-    /// Sets it; returns "", or why the text is wrong, and then sets nothing.
-    std::function<std::string(ShadowedScene&, const std::string& text)> parse;
-    /// The text that parse() would take for the value that the scene has.
-    std::function<std::string(const ShadowedScene&)> format;
-};
+/// One setting of a ShadowedScene as text.
+using SceneOption = osgMultiRender::Option<ShadowedScene>;
 
 /// All of them, those of LitScene too.
 OSGSHADOWVOLUME_EXPORT const std::vector<SceneOption>& sceneOptions();

@@ -83,7 +83,7 @@ TEST_F(EmbedLabelsGLTest, wrongSwitchesAreNamed)
 {
     const support::ProcessResult setting = run({"-s", "size=huge"});
     EXPECT_EQ(setting.exitCode, 2);
-    EXPECT_NE(setting.errors.find("'huge' is no number of 0.05..0.9"), std::string::npos)
+    EXPECT_NE(setting.errors.find("'huge' is not a number from 0.05 to 0.9"), std::string::npos)
         << setting.errors;
     const support::ProcessResult option = run({"--nonsense"});
     EXPECT_EQ(option.exitCode, 2);

@@ -49,6 +49,15 @@ std::string errorOf(const std::string& name, const std::string& text)
     return error;
 }
 
+/// What may be said, as errors list it.
+std::string knownOptions()
+{
+    return "text=name|description|value:<name>|<file.csv>|<file.json>, match=<regular expression>, "
+           "font=<file>, proportional=on|off, size=<0.05..0.9>, gap=<0..1000>, readable=<0..100>, "
+           "up=z|y|x|screen, texcoord=<-1..3>, chunk=on|off, ink=auto|<#rrggbb[aa]>, "
+           "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, keys=on|off";
+}
+
 } // namespace
 
 TEST(LabelOptionsTest, eachOptionSetsItsOwnAndSaysItAgain)
@@ -109,17 +118,15 @@ TEST(LabelOptionsTest, defaultsCanBeSaidOverOtherSettings)
 
 TEST(LabelOptionsTest, wrongTextIsNamedWithWhatMayBeSaid)
 {
-    EXPECT_EQ(errorOf("size", "2"), "setting 'size': '2' is no number of 0.05..0.9");
-    EXPECT_EQ(errorOf("up", "w"), "setting 'up': 'w' is none of z|y|x|screen");
+    EXPECT_EQ(errorOf("size", "2"), "setting 'size=2': '2' is not a number from 0.05 to 0.9");
+    EXPECT_EQ(errorOf("up", "w"), "setting 'up=w': 'w' is none of z, y, x, screen");
     EXPECT_EQ(errorOf("ink", "red"),
-              "setting 'ink': 'red' is neither auto nor a visible colour #rrggbb");
-    EXPECT_EQ(errorOf("outline", "#ffffff:0.5"),
-              "setting 'outline': '#ffffff:0.5' is neither off nor a colour and a width, 0 to "
-              "0.125: #ffffff:0.05");
-    EXPECT_EQ(errorOf("match", "(").substr(0, 43), "setting 'match': '(' is no regular expressi");
-    EXPECT_EQ(errorOf("sise", "2"),
-              "unknown setting 'sise'; known are text, match, font, proportional, size, gap, "
-              "readable, up, texcoord, chunk, ink, plate, outline, keys");
+              "setting 'ink=red': 'red' is neither auto nor a visible colour #rrggbb");
+    EXPECT_EQ(errorOf("outline", "#ffffff:0.5"), "setting 'outline=#ffffff:0.5': '#ffffff:0.5' is "
+                                                 "neither off nor a colour and a width, 0 to "
+                                                 "0.125: #ffffff:0.05");
+    EXPECT_EQ(errorOf("match", "(").substr(0, 45), "setting 'match=(': '(' is no regular expressi");
+    EXPECT_EQ(errorOf("sise", "2"), "setting 'sise=2' is not known; there are " + knownOptions());
 }
 
 TEST(LabelOptionsTest, noOptionButThoseOfTextTakesAnythingElse)
@@ -150,10 +157,11 @@ TEST(LabelOptionsTest, aSceneTakesWhatIsRightInATextAndNamesTheRest)
     EXPECT_EQ(scene->getSettingsText(), "size='0.3'");
     Lines warnings = capture.takeWarnings();
     ASSERT_EQ(warnings.size(), 2u);
-    EXPECT_EQ(warnings[0].substr(0, 74),
-              "osgLabels::LabelScene: unknown setting 'colour'; known are text, match, fo");
-    EXPECT_EQ(warnings[1], "osgLabels::LabelScene: setting 'gap': 'wide' is no number of 0..1000; "
-                           "it does not count");
+    EXPECT_EQ(warnings[0], "osgLabels::LabelScene: setting 'colour=red' is not known; there are " +
+                               knownOptions() + "; it does not count");
+    EXPECT_EQ(warnings[1],
+              "osgLabels::LabelScene: setting 'gap=wide': 'wide' is not a number from 0 to 1000; "
+              "it does not count");
     scene->setSettingsText("size='0.4");
     EXPECT_EQ(scene->getSettingsText(), "");
     warnings = capture.takeWarnings();

@@ -32,6 +32,15 @@ Separator {
 
 constexpr char Ascii[] = "#Ascii Scene\n#Version 162\n#Generator OpenSceneGraph 3.6.5\n\n";
 
+/// What may be said, as errors list it.
+std::string knownOptions()
+{
+    std::string known;
+    for (const osgLabels::LabelOption& option : osgLabels::labelOptions())
+        known += (known.empty() ? "" : ", ") + option.name + "=" + option.values;
+    return known;
+}
+
 const char* const Formats[] = {"osgt", "osgb", "osgx", "osg"};
 
 using Lines = support::NotifyCapture::Lines;
@@ -151,11 +160,11 @@ TEST_F(LabelsPlugin, batchesCastAndReceiveShadowsLikeMeshes)
 
 TEST_F(LabelsPlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
 {
-    const std::pair<const char*, const char*> cases[] = {
-        {"sise=0.3", "labels: unknown setting 'sise'; known are text, match, font, proportional, "
-                     "size, gap, readable, up, texcoord, chunk, ink, plate, outline, keys"},
-        {"size=3", "labels: setting 'size': '3' is no number of 0.05..0.9"},
-        {"ink=red", "labels: setting 'ink': 'red' is neither auto nor a visible colour #rrggbb"},
+    const std::pair<const char*, std::string> cases[] = {
+        {"sise=0.3", "labels: setting 'sise=0.3' is not known; there are " + knownOptions()},
+        {"size=3", "labels: setting 'size=3': '3' is not a number from 0.05 to 0.9"},
+        {"ink=red",
+         "labels: setting 'ink=red': 'red' is neither auto nor a visible colour #rrggbb"},
         {"match=(",
          "labels: bracket that opens at character 14 of 'labels.match=(' is not closed"}};
     for (const auto& [settings, message] : cases)
@@ -275,11 +284,10 @@ TEST_F(LabelsPlugin, unknownAndWrongSettingsInFilesAreNamedAndTheOthersCount)
         EXPECT_EQ(scene->getSettingsText(), "size='0.3'") << file;
         EXPECT_FALSE(scene->isShown()) << file;
         const Lines expected = {
-            "osgLabels::LabelScene: setting 'gap': 'wide' is no number of 0..1000; it does not "
-            "count",
-            "osgLabels::LabelScene: unknown setting 'sparkle'; known are text, match, font, "
-            "proportional, size, gap, readable, up, texcoord, chunk, ink, plate, outline, keys; it "
-            "does not count"};
+            "osgLabels::LabelScene: setting 'gap=wide': 'wide' is not a number from 0 to 1000; it "
+            "does not count",
+            "osgLabels::LabelScene: setting 'sparkle=on' is not known; there are " +
+                knownOptions() + "; it does not count"};
         EXPECT_EQ(capture.takeWarnings(), expected) << file;
     }
 }
