@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/Export.h>
+
 #include <osg/Vec3>
 #include <osg/Vec4>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,14 +27,21 @@ struct LabelStyle
 {
     static constexpr unsigned int MaxStyles = 16;
     static constexpr float MaxOutline = 0.125f; ///< em
+    /// Of the first style, which is that of all objects without one of their own.
+    static constexpr char DefaultName[] = "default";
 
+    std::string name;                      ///< What findStyle() knows it by; see isStyleName().
     osg::Vec4 ink{0.0f, 0.0f, 0.0f, 0.0f}; ///< Alpha 0: black or white, whichever shows.
     /// Alpha < 0: a black or white plate where the ink would have less contrast than 4.5 to 1 to
     /// the surface; 0: none.
     osg::Vec4 plate{0.0f, 0.0f, 0.0f, -1.0f};
     osg::Vec3 outline{0.0f, 0.0f, 0.0f};
-    float outlineWidth = 0.0f; ///< em; 0: none.
+    /// em; 0: none. Where styles have several widths all have the largest.
+    float outlineWidth = 0.0f;
 };
+
+/// Whether a style may be called so: letters, digits, '_', '-', '.' and what is beyond ASCII.
+OSGLABELS_EXPORT bool isStyleName(const std::string& name);
 
 /// All knobs of a LabelScene; see its setters.
 struct LabelSettings
@@ -47,7 +57,12 @@ struct LabelSettings
     int texCoord = -1;
     bool chunk = false;
     bool keys = true;
+    /// The first is that of all objects without one of their own; at most LabelStyle::MaxStyles.
     std::vector<LabelStyle> styles{1};
+
+    /// Index in `styles` of the style with that name; 0 for an empty one and
+    /// LabelStyle::DefaultName, none for one that is not there.
+    OSGLABELS_EXPORT std::optional<unsigned int> findStyle(const std::string& name) const;
 };
 
 } // namespace osgLabels
