@@ -24,12 +24,13 @@ public:
         if (auto* batch = dynamic_cast<PrimitiveBatch*>(&group))
         {
             if (_seen.insert(batch).second) // may have several parents
-                batches.emplace_back(batch);
+                batches.emplace_back(batch,
+                                     osg::NodePath(getNodePath().begin() + 1, getNodePath().end()));
         }
         else
             traverse(group);
     }
-    std::vector<osg::ref_ptr<PrimitiveBatch>> batches;
+    std::vector<std::pair<osg::ref_ptr<PrimitiveBatch>, osg::NodePath>> batches;
 
 private:
     std::set<const PrimitiveBatch*> _seen;
@@ -38,21 +39,21 @@ private:
 } // namespace
 
 std::uint32_t LabelBatches::collect(osg::Node& root, const LabelSource& source, std::uint32_t first,
-                                    const SetText& setText)
+                                    const SetLabel& setLabel)
 {
     BatchVisitor visitor;
     root.accept(visitor);
     std::lock_guard<std::mutex> lock(_mutex);
-    for (const osg::ref_ptr<PrimitiveBatch>& batch : visitor.batches)
+    for (const auto& [batch, path] : visitor.batches)
     {
         const std::uint32_t begin = first;
         for (unsigned int i = 0; i < batch->getNumObjects(); ++i)
         {
-            const auto text = source.ofName(batch->getObjectName(i));
-            batch->setIdentifier(i, text && !text->empty() ? first : 0);
-            if (!text || text->empty())
+            const auto label = source.ofName(batch->getObjectName(i), path);
+            batch->setIdentifier(i, label ? first : 0);
+            if (!label)
                 continue;
-            setText(first, *text);
+            setLabel(first, *label);
             ++first;
         }
         const std::uint32_t firstRecord = _numObjects + 1;

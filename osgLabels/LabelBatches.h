@@ -20,12 +20,12 @@ namespace osgLabels
 class LabelBatches
 {
 public:
-    using SetText = std::function<void(std::uint32_t identifier, const std::string& text)>;
+    using SetLabel = std::function<void(std::uint32_t identifier, const LabelSource::Found& label)>;
 
-    /// Finds the batches below `root` and gives their objects identifiers from `first` on; returns
-    /// the next one.
+    /// Finds the batches below `root`, which is none, and gives their objects identifiers from
+    /// `first` on; returns the next one.
     std::uint32_t collect(osg::Node& root, const LabelSource& source, std::uint32_t first,
-                          const SetText& setText);
+                          const SetLabel& setLabel);
 
     /// Calls `f` with each batch and the index of its first object's record.
     void forEach(const std::function<void(const PrimitiveBatch&, std::uint32_t)>& f) const;

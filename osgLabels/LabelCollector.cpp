@@ -51,9 +51,10 @@ std::size_t placeIn(Vector& all, std::vector<Index>& free)
 
 LabelCollector::LabelCollector(std::shared_ptr<LabelTable> table,
                                std::shared_ptr<const LabelSource> source, Encode encode,
-                               std::uint32_t firstIdentifier)
+                               std::uint32_t firstIdentifier, StyleOf styleOf)
     : _table(std::move(table)), _source(std::move(source)), _encode(std::move(encode)),
-      _offset(firstIdentifier - 1), _instances(1), _objects(1), _labels(1)
+      _styleOf(std::move(styleOf)), _offset(firstIdentifier - 1), _instances(1), _objects(1),
+      _labels(1)
 {
 }
 
@@ -167,6 +168,8 @@ std::uint32_t LabelCollector::addLabel(const LabelSource::Found& found, const os
         identifier = static_cast<std::uint32_t>(placeIn(_labels, _freeLabels));
         _labels[identifier] = {found.text, key, original, 0, 0, depth};
         _table->setCodes(identifier + _offset, _encode(found.text));
+        if (_styleOf && !found.style.empty())
+            _table->setStyle(identifier + _offset, _styleOf(found.style));
     }
     Label& label = _labels[identifier];
     ++label.objects;
@@ -306,6 +309,13 @@ bool LabelCollector::setText(std::uint32_t identifier, const std::string& utf8)
         return false;
     _labels[label].text = utf8;
     return _table->setCodes(identifier, codes);
+}
+
+bool LabelCollector::setStyle(std::uint32_t identifier, std::uint32_t style)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const std::uint32_t label = identifier - _offset;
+    return label < _labels.size() && _labels[label].objects && _table->setStyle(identifier, style);
 }
 
 std::string LabelCollector::getText(std::uint32_t identifier) const

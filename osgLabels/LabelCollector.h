@@ -37,10 +37,13 @@ class OSGLABELS_EXPORT LabelCollector
 public:
     using Encode = std::function<LabelTable::Codes(const std::string& utf8)>;
 
-    /// Texts become codes by `encode`, which is called under the collector's lock. Identifiers
+    using StyleOf = std::function<std::uint32_t(const std::string& name)>;
+
+    /// Texts become codes by `encode` and names of styles numbers by `styleOf`, which are called
+    /// under the collector's lock; without the latter no label has a style of its own. Identifiers
     /// count from `firstIdentifier`.
     LabelCollector(std::shared_ptr<LabelTable> table, std::shared_ptr<const LabelSource> source,
-                   Encode encode, std::uint32_t firstIdentifier = 1);
+                   Encode encode, std::uint32_t firstIdentifier = 1, StyleOf styleOf = {});
     ~LabelCollector();
     LabelCollector(const LabelCollector&) = delete;
     LabelCollector& operator=(const LabelCollector&) = delete;
@@ -91,6 +94,8 @@ public:
     /// Gives a label another text, until the last of its objects is gone. False for an identifier
     /// without objects.
     bool setText(std::uint32_t identifier, const std::string& utf8);
+    /// Likewise; a number for LabelTable::setStyle().
+    bool setStyle(std::uint32_t identifier, std::uint32_t style);
     /// Empty for an identifier without objects.
     std::string getText(std::uint32_t identifier) const;
     /// The way from the group to the node that gives an identifier its label; empty if it is gone.
@@ -137,6 +142,7 @@ private:
     const std::shared_ptr<LabelTable> _table;
     const std::shared_ptr<const LabelSource> _source;
     const Encode _encode;
+    const StyleOf _styleOf;
     const std::uint32_t _offset; ///< From an index in _labels to an identifier.
 
     mutable std::mutex _mutex;

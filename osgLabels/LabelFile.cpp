@@ -37,14 +37,17 @@ struct Entries
         if (error.empty())
             error = path + (line ? ":" + std::to_string(line) : std::string()) + ": " + cause;
     }
-    void add(const std::string& name, const std::string& text, std::size_t line)
+    void add(const std::string& name, const TableLabel& label, std::size_t line)
     {
         if (name.empty())
             fail(line, "the name is empty; give it one or take the line out");
-        const auto [found, isNew] = texts.emplace(name, text);
-        if (!isNew && found->second != text)
-            fail(line,
-                 "'" + name + "' has the text '" + found->second + "' already; keep one of them");
+        const auto [found, isNew] = texts.emplace(name, label);
+        if (isNew || found->second == label)
+            return;
+        const bool isText = found->second.text != label.text;
+        fail(line, "'" + name + "' has the " + (isText ? "text '" : "style '") +
+                       (isText ? found->second.text : found->second.style) +
+                       "' already; keep one of them");
     }
 };
 
@@ -55,6 +58,7 @@ struct CsvReader
     std::vector<std::string> fields;
     std::size_t line = 0; ///< On which the record starts.
     bool isFirst = true;
+    std::size_t columns = 2; ///< 3 with styles.
 
     static void field(void* data, std::size_t size, void* self)
     {
@@ -64,20 +68,25 @@ struct CsvReader
 
     void endRecord()
     {
-        const bool isHeading = isFirst && fields.size() == 2 && lowered(fields[0]) == "name" &&
+        const bool isHeading = isFirst && fields.size() >= 2 && lowered(fields[0]) == "name" &&
                                (lowered(fields[1]) == "text" || lowered(fields[1]) == "label");
         isFirst = false;
-        if (fields.size() != 2)
+        if (isHeading && fields.size() == 3 && lowered(fields[2]) == "style")
+            columns = 3;
+        if (fields.size() != columns)
         {
             const bool isOther =
                 fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos;
-            entries.fail(line, "a line has two columns, name and text, this one has " +
-                                   std::to_string(fields.size()) +
-                                   (isOther ? "; separate them by a comma"
-                                            : "; quote a text that has a comma: \"a,b\""));
+            entries.fail(line,
+                         (columns == 2 ? "a line has two columns, name and text, this one has "
+                                       : "a line has three columns, name, text and style, this one "
+                                         "has ") +
+                             std::to_string(fields.size()) +
+                             (isOther ? "; separate them by a comma"
+                                      : "; quote a text that has a comma: \"a,b\""));
         }
         else if (!isHeading)
-            entries.add(fields[0], fields[1], line);
+            entries.add(fields[0], {fields[1], columns == 3 ? fields[2] : std::string()}, line);
         fields.clear();
         line = 0;
     }
@@ -88,7 +97,7 @@ void readCsv(const std::string& content, Entries& entries)
     csv_parser parser;
     csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI);
     csv_set_space_func(&parser, [](unsigned char) { return 0; }); // spaces are part of a field
-    CsvReader reader{entries, {}, 0, true};
+    CsvReader reader{entries, {}};
     std::size_t line = 1;
     // Line by line, so that the number of each is known.
     for (std::size_t at = 0; at < content.size() && entries.error.empty(); ++line)
@@ -128,12 +137,16 @@ void addList(const Json& list, Entries& entries)
     std::size_t index = 0;
     for (const Json& item : list)
     {
-        std::string name, text;
+        std::string name;
+        TableLabel label;
         if (!item.is_object() || !item.count("name") || !item.count("text") ||
-            !textOf(item["name"], name) || !textOf(item["text"], text))
+            !textOf(item["name"], name) || !textOf(item["text"], label.text))
             entries.fail(0, "entry " + std::to_string(index) +
                                 " of the list is no {\"name\": …, \"text\": …} of two strings");
-        entries.add(name, text, 0);
+        else if (item.count("style") && !textOf(item["style"], label.style))
+            entries.fail(0,
+                         "the style of '" + name + "' is a list or an object; it must be a string");
+        entries.add(name, label, 0);
         ++index;
     }
 }
@@ -154,7 +167,7 @@ void readJson(const std::string& content, Entries& entries)
             if (!textOf(value, text))
                 entries.fail(0, "the text of '" + name +
                                     "' is a list or an object; it must be a string");
-            entries.add(name, text, 0);
+            entries.add(name, {text, {}}, 0);
         }
     }
     catch (const Json::parse_error& error)

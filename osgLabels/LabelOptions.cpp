@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelOptions.h>
 
+#include <osgLabels/StyleText.h>
+
 #include <osgMultiRender/PseudoLoader.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <regex>
 
 namespace osgLabels
 {
-
-using osgMultiRender::formatNumber;
-using osgMultiRender::parseNumber;
 
 namespace
 {
@@ -48,103 +44,21 @@ LabelOption flag(const char* name, bool LabelSettings::*member, const char* help
     return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
 }
 
-/// "#rrggbb" or "#rrggbbaa".
-bool parseColor(const std::string& text, osg::Vec4& color)
+/// Of the style of all objects without one of their own.
+LabelOption defaultStyle(const osgMultiRender::Option<LabelStyle>& part)
 {
-    if ((text.size() != 7 && text.size() != 9) || text[0] != '#')
-        return false;
-    color = osg::Vec4(0.0f, 0.0f, 0.0f, 1.0f);
-    for (std::size_t i = 1; i < text.size(); i += 2)
-    {
-        unsigned int value = 0;
-        const char* end = text.data() + i + 2;
-        if (std::from_chars(text.data() + i, end, value, 16).ptr != end)
-            return false;
-        color[int(i / 2)] = float(value) / 255.0f;
-    }
-    return true;
+    return {part.name, part.values, part.help,
+            [parse = part.parse](LabelSettings& settings, const std::string& text)
+            { return parse(settings.styles[0], text); },
+            [format = part.format](const LabelSettings& settings)
+            { return format(settings.styles[0]); }};
 }
 
-std::string toText(const osg::Vec4& color)
+LabelOption stylesOption()
 {
-    static const char digits[] = "0123456789abcdef";
-    std::string text = "#";
-    for (int i = 0; i < (color.a() < 1.0f ? 4 : 3); ++i)
-    {
-        const int value = int(std::lround(std::clamp(color[i], 0.0f, 1.0f) * 255.0f));
-        text += {digits[value / 16], digits[value % 16]};
-    }
-    return text;
-}
-
-LabelOption inkOption()
-{
-    return {"ink", "auto|<#rrggbb[aa]>", "Colour of letters; auto: black or white, whichever shows",
-            [](LabelSettings& settings, const std::string& text) -> std::string
-            {
-                osg::Vec4 color;
-                if (text != "auto" && (!parseColor(text, color) || color.a() == 0.0f))
-                    return "'" + text + "' is neither auto nor a visible colour #rrggbb";
-                settings.styles[0].ink = color;
-                return {};
-            },
-            [](const LabelSettings& settings)
-            {
-                const osg::Vec4& ink = settings.styles[0].ink;
-                return ink.a() == 0.0f ? std::string("auto") : toText(ink);
-            }};
-}
-
-LabelOption plateOption()
-{
-    return {"plate", "auto|off|<#rrggbb[aa]>",
-            "Plate behind the letters; auto: where an ink has less contrast than 4.5 to 1",
-            [](LabelSettings& settings, const std::string& text) -> std::string
-            {
-                osg::Vec4 color;
-                if (text == "auto")
-                    color.a() = -1.0f;
-                else if (text != "off" && !parseColor(text, color))
-                    return "'" + text + "' is neither auto, off nor a colour #rrggbb";
-                settings.styles[0].plate = color;
-                return {};
-            },
-            [](const LabelSettings& settings)
-            {
-                const osg::Vec4& plate = settings.styles[0].plate;
-                return plate.a() < 0.0f    ? std::string("auto")
-                       : plate.a() == 0.0f ? std::string("off")
-                                           : toText(plate);
-            }};
-}
-
-LabelOption outlineOption()
-{
-    return {"outline", "off|<#rrggbb:em>",
-            "Outline of letters, such as #ffffff:0.05 in shares of the line's height",
-            [](LabelSettings& settings, const std::string& text) -> std::string
-            {
-                LabelStyle& style = settings.styles[0];
-                const std::size_t colon = text.find(':');
-                osg::Vec4 color;
-                float width = 0.0f;
-                if (text != "off" &&
-                    (colon == std::string::npos || !parseColor(text.substr(0, colon), color) ||
-                     !parseNumber(text.substr(colon + 1), width) ||
-                     !(width > 0.0f && width <= LabelStyle::MaxOutline)))
-                    return "'" + text + "' is neither off nor a colour and a width, 0 to " +
-                           formatNumber(LabelStyle::MaxOutline) + ": #ffffff:0.05";
-                style.outline = osg::Vec3(color.r(), color.g(), color.b());
-                style.outlineWidth = width;
-                return {};
-            },
-            [](const LabelSettings& settings)
-            {
-                const LabelStyle& style = settings.styles[0];
-                return style.outlineWidth == 0.0f ? std::string("off")
-                                                  : toText(osg::Vec4(style.outline, 1.0f)) + ":" +
-                                                        formatNumber(style.outlineWidth);
-            }};
+    return {"styles", "none|<name>:ink=…,plate=…,outline=…;…",
+            "Named looks of labels, such as hot:ink=#ff0000;cold:ink=#0000ff,plate=off",
+            parseStyles, formatStyles};
 }
 
 LabelOption matchOption()
@@ -192,6 +106,7 @@ std::string quoted(const std::string& value)
 
 const std::vector<LabelOption>& labelOptions()
 {
+    const std::vector<osgMultiRender::Option<LabelStyle>>& style = styleOptions();
     static const std::vector<LabelOption> options = {
         text("text", &LabelSettings::source, "name|description|value:<name>|<file.csv>|<file.json>",
              "What is written on an object: its nearest name, its description, a user value, or "
@@ -213,9 +128,10 @@ const std::vector<LabelOption>& labelOptions()
         number("texcoord", &LabelSettings::texCoord, -1, 3,
                "Texture unit whose coordinates place the text; -1: by shape"),
         flag("chunk", &LabelSettings::chunk, "Gathers many small drawables into few large ones"),
-        inkOption(),
-        plateOption(),
-        outlineOption(),
+        defaultStyle(style[0]),
+        defaultStyle(style[1]),
+        defaultStyle(style[2]),
+        stylesOption(),
         flag("keys", &LabelSettings::keys, "Answers to keys in osgviewer"),
     };
     return options;

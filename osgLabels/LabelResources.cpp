@@ -73,10 +73,14 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
     _atlas->setLegibleSize(settings.readable);
     const std::uint32_t next =
         batches.collect(group, *source, 1,
-                        [this](std::uint32_t identifier, const std::string& text)
-                        { table->setCodes(identifier, encode(text)); });
+                        [this](std::uint32_t identifier, const LabelSource::Found& label)
+                        {
+                            table->setCodes(identifier, encode(label.text));
+                            table->setStyle(identifier, styleOf(label.style).value_or(0));
+                        });
     collector = std::make_unique<LabelCollector>(
-        table, source, [this](const std::string& text) { return encode(text); }, next);
+        table, source, [this](const std::string& text) { return encode(text); }, next,
+        [this](const std::string& name) { return styleOf(name).value_or(0); });
     collector->collect(group);
     fitNew();
     if (settings.chunk)
@@ -163,6 +167,42 @@ std::string LabelResources::getText(std::uint32_t identifier) const
         return {};
     const LabelBatches::Found found = batches.find(identifier);
     return found.batch ? found.batch->getObjectName(found.object) : collector->getText(identifier);
+}
+
+std::optional<std::uint32_t> LabelResources::styleOf(const std::string& name)
+{
+    const std::optional<unsigned int> style = settings.findStyle(name);
+    if (style)
+        return *style;
+    bool isNew;
+    {
+        std::lock_guard<std::mutex> lock(_stylesMutex);
+        isNew = _unknownStyles.insert(name).second;
+    }
+    std::string known;
+    for (std::size_t i = 1; i < settings.styles.size(); ++i)
+        known += (i > 1 ? ", " : "") + settings.styles[i].name;
+    if (isNew)
+        warn("there is no style '" + name + "'; " +
+             (known.empty() ? "define it: styles='" + name + ":ink=#ff0000'"
+                            : "there are " + known));
+    return std::nullopt;
+}
+
+bool LabelResources::setStyle(std::uint32_t identifier, const std::string& name)
+{
+    const std::optional<std::uint32_t> style = styleOf(name);
+    if (!collector || !style)
+        return false;
+    return batches.find(identifier).batch ? table->setStyle(identifier, *style)
+                                          : collector->setStyle(identifier, *style);
+}
+
+std::string LabelResources::getStyle(std::uint32_t identifier) const
+{
+    const std::uint32_t style = table->getStyle(identifier);
+    return style && style < settings.styles.size() ? settings.styles[style].name
+                                                   : LabelStyle::DefaultName;
 }
 
 std::string LabelResources::getPath(osg::Group& group, std::uint32_t identifier) const

@@ -16,6 +16,8 @@
 #include <osgMultiRender/ScreenTriangle.h>
 #include <osgMultiRender/TargetPool.h>
 
+#include <set>
+
 namespace osgLabels
 {
 
@@ -43,6 +45,10 @@ public:
     /// UTF-8. False for an identifier that no object has.
     bool setText(std::uint32_t identifier, const std::string& text);
     std::string getText(std::uint32_t identifier) const;
+    /// False for an identifier that no object has and, with a warning, for an unknown style.
+    bool setStyle(std::uint32_t identifier, const std::string& name);
+    /// Its name.
+    std::string getStyle(std::uint32_t identifier) const;
     std::string getPath(osg::Group& group, std::uint32_t identifier) const;
 
     /// What draws the subgraph with few large drawables; null where that is not asked for.
@@ -65,8 +71,12 @@ public:
 private:
     LabelTable::Codes encode(const std::string& text);
     void makeChunks(osg::Group& group);
+    /// None for one that is not there, which is said once.
+    std::optional<std::uint32_t> styleOf(const std::string& name);
 
     std::string _error;
+    std::mutex _stylesMutex;
+    std::set<std::string> _unknownStyles; ///< Those that were said.
     std::shared_ptr<GlyphSet> _glyphs;
     osg::ref_ptr<osg::Node> _chunks;
     std::mutex _atlasMutex;

@@ -47,6 +47,18 @@ std::string LabelScene::getText(std::uint32_t identifier) const
     return resources ? resources->getText(identifier) : std::string();
 }
 
+bool LabelScene::setStyle(std::uint32_t identifier, const std::string& name)
+{
+    const std::shared_ptr<LabelResources> resources = getResources();
+    return resources && resources->setStyle(identifier, name);
+}
+
+std::string LabelScene::getStyle(std::uint32_t identifier) const
+{
+    const std::shared_ptr<LabelResources> resources = getResources();
+    return resources ? resources->getStyle(identifier) : LabelStyle::DefaultName;
+}
+
 void LabelScene::pick(double x, double y)
 {
     const std::shared_ptr<LabelResources> resources = getResources();

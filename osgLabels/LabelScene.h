@@ -41,6 +41,12 @@ public:
     /// Counts from the next traversal on; not while one runs. Labels are collected anew.
     std::string getText(std::uint32_t identifier) const;
 
+    /// Changes its style, likewise, to one of those that the settings name; LabelStyle::DefaultName
+    /// is that of all others. False for an identifier that no object has and, with a warning, for
+    /// a style that is not there.
+    bool setStyle(std::uint32_t identifier, const std::string& name);
+    std::string getStyle(std::uint32_t identifier) const;
+
     /// What is at a point of a picture.
     struct Picked
     {
@@ -60,10 +66,10 @@ public:
 
     void setSettings(const LabelSettings& settings);
     const LabelSettings& getSettings() const { return _settings; }
-    /// As text, "size='0.3',ink='#ff0000'": all that differ from the defaults, of styles the first.
+    /// As text, "size='0.3',ink='#ff0000'": all that differ from the defaults.
     /// What is unknown or wrong in it is named in a warning and does not count. Files hold this
-    /// text and isShown(); what setText() has changed they do not hold, since texts come from the
-    /// objects.
+    /// text and isShown(); what setText() and setStyle() have changed they do not hold, since
+    /// texts and styles come from the objects.
     void setSettingsText(const std::string& text);
     std::string getSettingsText() const;
 

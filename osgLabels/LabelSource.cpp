@@ -53,6 +53,22 @@ bool isTextureName(const osg::Geode& geode)
     return false;
 }
 
+/// The label of path[depth], with its style; none where its text is empty.
+std::optional<LabelSource::Found> styled(const TableLabel& label, const osg::NodePath& path,
+                                         std::size_t depth)
+{
+    if (label.text.empty())
+        return std::nullopt;
+    LabelSource::Found found{label.text, depth, label.style};
+    if (!found.style.empty())
+        return found;
+    for (std::size_t i = std::min(depth + 1, path.size()); i-- > 0;)
+        if (path[i]->getUserDataContainer() &&
+            path[i]->getUserValue(LabelSource::StyleValue, found.style))
+            break;
+    return found;
+}
+
 } // namespace
 
 std::shared_ptr<const LabelSource> LabelSource::create(const LabelSourceSettings& settings,
@@ -114,8 +130,17 @@ std::optional<std::string> LabelSource::formatted(const std::string& name) const
     return _settings.format.empty() ? name : parts.format(_settings.format);
 }
 
-std::optional<std::string> LabelSource::textOf(const osg::Node& node) const
+std::optional<TableLabel> LabelSource::inTable(const std::string& name) const
 {
+    const auto found = _texts.find(name);
+    return found == _texts.end() ? std::nullopt : std::make_optional(found->second);
+}
+
+std::optional<TableLabel> LabelSource::labelOf(const osg::Node& node) const
+{
+    const auto labelled = [](const std::optional<std::string>& text) {
+        return text ? std::make_optional(TableLabel{*text, {}}) : std::nullopt;
+    };
     const bool isNamed = hasName(node);
     const bool needsName = _settings.from == LabelFrom::NAME ||
                            _settings.from == LabelFrom::TABLE || !_settings.match.empty();
@@ -123,36 +148,35 @@ std::optional<std::string> LabelSource::textOf(const osg::Node& node) const
         return std::nullopt;
     const std::optional<std::string> text = needsName ? formatted(node.getName()) : std::string();
     if (!text || _settings.from == LabelFrom::NAME)
-        return text;
+        return labelled(text);
     if (_settings.from == LabelFrom::VALUE)
-        return userValue(node, _settings.value);
+        return labelled(userValue(node, _settings.value));
     if (_settings.from == LabelFrom::TABLE)
-    {
-        const auto found = _texts.find(node.getName());
-        return found == _texts.end() ? std::nullopt : std::make_optional(found->second);
-    }
+        return inTable(node.getName());
     const auto& descriptions = node.getDescriptions();
     const auto first = std::find_if(descriptions.begin(), descriptions.end(),
                                     [](const std::string& line) { return !line.empty(); });
-    return first == descriptions.end() ? std::nullopt : std::make_optional(*first);
+    return first == descriptions.end() ? std::nullopt : labelled(*first);
 }
 
-std::optional<std::string> LabelSource::ofName(const std::string& name) const
+std::optional<LabelSource::Found> LabelSource::ofName(const std::string& name,
+                                                      const osg::NodePath& path) const
 {
     if (name.empty() || (_settings.from != LabelFrom::NAME && _settings.from != LabelFrom::TABLE))
         return std::nullopt;
     const std::optional<std::string> text = formatted(name);
-    if (!text || _settings.from == LabelFrom::NAME)
-        return text;
-    const auto found = _texts.find(name);
-    return found == _texts.end() ? std::nullopt : std::make_optional(found->second);
+    const std::optional<TableLabel> label = text && _settings.from == LabelFrom::TABLE
+                                                ? inTable(name)
+                                            : text ? std::make_optional(TableLabel{*text, {}})
+                                                   : std::nullopt;
+    return label ? styled(*label, path, path.size() - 1) : std::nullopt;
 }
 
 std::optional<LabelSource::Found> LabelSource::find(const osg::NodePath& path) const
 {
     for (std::size_t depth = path.size(); depth-- > 0;)
-        if (const auto text = textOf(*path[depth]))
-            return text->empty() ? std::nullopt : std::make_optional(Found{*text, depth});
+        if (const auto label = labelOf(*path[depth]))
+            return styled(*label, path, depth);
     return std::nullopt;
 }
 

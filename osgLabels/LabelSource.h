@@ -40,8 +40,10 @@ struct LabelSourceSettings
 /// Names that nobody has given do not count: blank ones, the node's class ("Geode"), and what
 /// Inventor's reader calls a Geode whose shape has no name, that of the shape's texture. Drawables
 /// are nodes, too, so their own names come first. An empty text in a table or a user value is none,
-/// and ends the search: so a part can be left out. Safe to use from any thread while nobody changes
-/// the nodes.
+/// and ends the search: so a part can be left out. The style of a label is what the table says for
+/// its name; else the user value "labelStyle", a string, of the node that gives the text or of the
+/// nearest one above that has it: a group's is that of all in it. Safe to use from any thread while
+/// nobody changes the nodes.
 class OSGLABELS_EXPORT LabelSource
 {
 public:
@@ -54,19 +56,25 @@ public:
     {
         std::string text;      ///< UTF-8, not empty.
         std::size_t depth = 0; ///< path[depth] gives it.
+        std::string style;     ///< Name of a LabelStyle; empty for none of its own.
     };
     /// The text of the last node of a path; none where it has no label.
     std::optional<Found> find(const osg::NodePath& path) const;
 
-    /// The text of an object that has a name and nothing else; none without a label.
-    std::optional<std::string> ofName(const std::string& name) const;
+    /// The text of an object that is no node but has a name and lies at the end of the path; none
+    /// without a label. `depth` is that of the path's last node.
+    std::optional<Found> ofName(const std::string& name, const osg::NodePath& path) const;
+
+    /// Name of the user value that says the style.
+    static constexpr char StyleValue[] = "labelStyle";
 
     /// Whether a name says what the node is.
     static bool hasName(const osg::Node& node);
 
 private:
     LabelSource() = default;
-    std::optional<std::string> textOf(const osg::Node& node) const;
+    std::optional<TableLabel> labelOf(const osg::Node& node) const;
+    std::optional<TableLabel> inTable(const std::string& name) const;
     std::optional<std::string> formatted(const std::string& name) const;
 
     LabelSourceSettings _settings;

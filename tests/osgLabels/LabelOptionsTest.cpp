@@ -16,6 +16,9 @@ namespace
 
 using Lines = std::vector<std::string>;
 
+const char* const SomeStyles =
+    "hot:ink=#ff0000,plate=#000000c0;cold_1.a-ä:ink=#0000ff,outline=#ffffff:0.05;plain:";
+
 /// A text for each option that is not its default.
 const std::map<std::string, std::string> Changed = {{"text", "value:tag"},
                                                     {"match", R"(^P-\d+, "it's" [(]x[)]$)"},
@@ -30,6 +33,7 @@ const std::map<std::string, std::string> Changed = {{"text", "value:tag"},
                                                     {"ink", "#ff8000"},
                                                     {"plate", "#10203080"},
                                                     {"outline", "#ffffff:0.05"},
+                                                    {"styles", SomeStyles},
                                                     {"keys", "off"}};
 
 LabelSettings allChanged()
@@ -55,7 +59,8 @@ std::string knownOptions()
     return "text=name|description|value:<name>|<file.csv>|<file.json>, match=<regular expression>, "
            "font=<file>, proportional=on|off, size=<0.05..0.9>, gap=<0..1000>, readable=<0..100>, "
            "up=z|y|x|screen, texcoord=<-1..3>, chunk=on|off, ink=auto|<#rrggbb[aa]>, "
-           "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, keys=on|off";
+           "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, "
+           "styles=none|<name>:ink=…,plate=…,outline=…;…, keys=on|off";
 }
 
 } // namespace
@@ -95,6 +100,65 @@ TEST(LabelOptionsTest, settingsArriveInTheScene)
     EXPECT_EQ(style.plate, osg::Vec4(16, 32, 48, 128) / 255.0f);
     EXPECT_EQ(style.outline, osg::Vec3(1.0f, 1.0f, 1.0f));
     EXPECT_EQ(style.outlineWidth, 0.05f);
+}
+
+TEST(LabelOptionsTest, stylesAreFoundByTheirNames)
+{
+    const LabelSettings settings = allChanged();
+    ASSERT_EQ(settings.styles.size(), 4u);
+    EXPECT_EQ(settings.findStyle(""), 0u);
+    EXPECT_EQ(settings.findStyle("default"), 0u);
+    EXPECT_EQ(settings.findStyle("hot"), 1u);
+    EXPECT_EQ(settings.findStyle("cold_1.a-ä"), 2u);
+    EXPECT_EQ(settings.findStyle("plain"), 3u);
+    EXPECT_EQ(settings.findStyle("Hot"), std::nullopt);
+    EXPECT_EQ(settings.styles[1].ink, osg::Vec4(1, 0, 0, 1));
+    EXPECT_EQ(settings.styles[1].plate, osg::Vec4(0, 0, 0, 192) / 255.0f);
+    EXPECT_EQ(settings.styles[2].outlineWidth, 0.05f);
+    const LabelStyle plain;
+    EXPECT_EQ(settings.styles[3].ink, plain.ink) << "not that of the default style";
+    EXPECT_EQ(settings.styles[3].plate, plain.plate);
+}
+
+TEST(LabelOptionsTest, stylesMayStandInAnyOrderWithSpacesBetween)
+{
+    LabelSettings settings;
+    std::string error;
+    ASSERT_TRUE(setLabelOption(settings, "styles", " a: plate=off , ink=#00ff00 ; b:; ", error))
+        << error;
+    EXPECT_EQ(formatLabelOptions(settings), "styles='a:ink=#00ff00,plate=off;b:'");
+    ASSERT_TRUE(setLabelOption(settings, "ink", "#0000ff", error));
+    EXPECT_EQ(settings.styles.size(), 3u) << "the default style is another";
+    ASSERT_TRUE(setLabelOption(settings, "styles", "none", error));
+    EXPECT_EQ(formatLabelOptions(settings), "ink='#0000ff'");
+}
+
+TEST(LabelOptionsTest, wrongStylesAreNamedAndSetNothing)
+{
+    const auto errorOfStyles = [](const std::string& text)
+    {
+        const std::string error = errorOf("styles", text);
+        return error.substr(std::min(error.size(), text.size() + 19));
+    };
+    EXPECT_EQ(errorOfStyles("hot"), "'hot' lacks a colon after the style's name: hot:ink=#ff0000");
+    const std::string noName =
+        " is no name of a style; it is made of letters, digits, _ - and ., and is not default";
+    EXPECT_EQ(errorOfStyles("a b:ink=#ff0000"), "'a b'" + noName);
+    EXPECT_EQ(errorOfStyles("default:ink=#ff0000"), "'default'" + noName);
+    EXPECT_EQ(errorOfStyles("hot:#ff0000"), "'#ff0000' of style 'hot' has no value: ink=#ff0000");
+    EXPECT_EQ(errorOfStyles("hot:ink=red"), "style 'hot': setting 'ink=red': 'red' is neither auto "
+                                            "nor a visible colour #rrggbb");
+    EXPECT_EQ(errorOfStyles("hot:size=0.3"),
+              "style 'hot': setting 'size=0.3' is not known; there are ink=auto|<#rrggbb[aa]>, "
+              "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>");
+    EXPECT_EQ(errorOfStyles("hot:;hot:"), "style 'hot' is there twice");
+    std::string many;
+    for (int i = 0; i < 15; ++i)
+        many += "s" + std::to_string(i) + ":;";
+    LabelSettings settings;
+    std::string error;
+    EXPECT_TRUE(setLabelOption(settings, "styles", many, error)) << error;
+    EXPECT_EQ(errorOfStyles(many + "s15:"), "there are more than 15 styles");
 }
 
 TEST(LabelOptionsTest, theTextOfAllSettingsReadsBack)

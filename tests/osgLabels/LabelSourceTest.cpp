@@ -80,7 +80,7 @@ protected:
     /// The error without the folder.
     std::string errorOf(const std::string& name, const std::string& content)
     {
-        TextByName texts{{"kept", "kept"}};
+        TextByName texts{{"kept", {"kept", ""}}};
         std::string error;
         EXPECT_FALSE(readLabelFile(write(name, content), texts, error));
         EXPECT_EQ(texts.size(), 1u);
@@ -97,6 +97,23 @@ TEST(LabelSourceTest, nearestNamedAncestorGivesTheText)
     EXPECT_EQ(make({})->find(scene.path())->depth, 1u);
     scene.geometry->setName("flange");
     EXPECT_EQ(textOf({}, scene.path()), "flange");
+}
+
+TEST(LabelSourceTest, theNearestStyleFromTheNamedNodeUpCounts)
+{
+    const Plant scene;
+    const auto style = [&] { return make({})->find(scene.path())->style; };
+    EXPECT_EQ(style(), "");
+    scene.plant->setUserValue("labelStyle", std::string("cold"));
+    EXPECT_EQ(style(), "cold");
+    EXPECT_EQ(make({})->ofName("TK-1", {scene.plant})->style, "cold");
+    scene.pipe->setUserValue("labelStyle", std::string("hot"));
+    EXPECT_EQ(style(), "hot");
+    // The label is that of the pipe, with all that it consists of.
+    scene.geode->setUserValue("labelStyle", std::string("parts"));
+    EXPECT_EQ(style(), "hot");
+    scene.pipe->setUserValue("labelStyle", std::string());
+    EXPECT_EQ(style(), "") << "an empty one is none, and ends the search";
 }
 
 TEST(LabelSourceTest, madeUpNamesDoNotCount)
@@ -203,20 +220,53 @@ TEST_F(LabelFileTest, tableGivesTextsByName)
 
 TEST_F(LabelFileTest, csvIsReadByRfc4180)
 {
-    const TextByName expected = {{"a", "1"}, {"b,c", "say \"so\""}, {" d", "two\nlines "}};
+    const TextByName expected = {
+        {"a", {"1", ""}}, {"b,c", {"say \"so\"", ""}}, {" d", {"two\nlines ", ""}}};
     EXPECT_EQ(read("t.csv", "a,1\r\n\"b,c\",\"say \"\"so\"\"\"\r\n\r\n d,\"two\nlines \"\r\n"),
               expected);
-    EXPECT_EQ(read("t.CSV", "\xef\xbb\xbfName,Text\na,1"), (TextByName{{"a", "1"}}));
-    EXPECT_EQ(read("t.csv", "a,1\na,1\n"), (TextByName{{"a", "1"}}));
+    EXPECT_EQ(read("t.CSV", "\xef\xbb\xbfName,Text\na,1"), (TextByName{{"a", {"1", ""}}}));
+    EXPECT_EQ(read("t.csv", "a,1\na,1\n"), (TextByName{{"a", {"1", ""}}}));
     EXPECT_EQ(read("t.csv", ""), TextByName());
 }
 
 TEST_F(LabelFileTest, jsonIsReadAsObjectOrList)
 {
-    const TextByName expected = {{"a", "1"}, {"b", "2.5"}, {"c", ""}, {"d", "true"}};
+    const TextByName expected = {
+        {"a", {"1", ""}}, {"b", {"2.5", ""}}, {"c", {"", ""}}, {"d", {"true", ""}}};
     EXPECT_EQ(read("t.json", "{\"a\": \"1\", \"b\": 2.5, \"c\": null, \"d\": true}"), expected);
     EXPECT_EQ(read("t.json", "[{\"name\": \"a\", \"text\": \"1\", \"unit\": 5}]"),
-              (TextByName{{"a", "1"}}));
+              (TextByName{{"a", {"1", ""}}}));
+}
+
+TEST_F(LabelFileTest, tablesMaySayStyles)
+{
+    const TextByName expected = {{"a", {"1", "hot"}}, {"b", {"2", ""}}};
+    EXPECT_EQ(read("t.csv", "Name,Text,Style\na,1,hot\nb,2,\n"), expected);
+    EXPECT_EQ(read("t.json", "[{\"name\": \"a\", \"text\": \"1\", \"style\": \"hot\"},"
+                             " {\"name\": \"b\", \"text\": \"2\"}]"),
+              expected);
+    EXPECT_EQ(errorOf("t.csv", "name,text,style\na,1\n"),
+              "t.csv:2: a line has three columns, name, text and style, this one has 2; quote a "
+              "text that has a comma: \"a,b\"");
+    EXPECT_EQ(errorOf("t.csv", "name,text,style\na,1,hot\na,1,cold\n"),
+              "t.csv:3: 'a' has the style 'hot' already; keep one of them");
+    EXPECT_EQ(errorOf("t.json", "[{\"name\": \"a\", \"text\": \"1\", \"style\": []}]"),
+              "t.json: the style of 'a' is a list or an object; it must be a string");
+}
+
+TEST_F(LabelFileTest, theTablesStyleWinsOverAUserValue)
+{
+    const Plant scene;
+    scene.plant->setUserValue("labelStyle", std::string("cold"));
+    LabelSourceSettings settings;
+    settings.from = LabelFrom::TABLE;
+    settings.table = write("tags.csv", "name,text,style\nPIPE-101,a,hot\nplant,b,\n");
+    EXPECT_EQ(make(settings)->find(scene.path())->style, "hot");
+    scene.pipe->setName("");
+    EXPECT_EQ(make(settings)->find(scene.path())->style, "cold");
+    EXPECT_EQ(make(settings)->ofName("PIPE-101", {scene.plant})->style, "hot");
+    EXPECT_EQ(make(settings)->ofName("plant", {scene.plant})->style, "cold");
+    EXPECT_FALSE(make(settings)->ofName("pump", {scene.plant}));
 }
 
 TEST_F(LabelFileTest, brokenTablesNameFileLineCauseAndRemedy)
