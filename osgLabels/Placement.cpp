@@ -27,7 +27,7 @@ LabelPlace placeOn(const ObjectRecord& record, const glm::vec3& position, const 
     const glsl::osgLabels_View seen{view.eye,    view.up,  view.screenUp, view.screenRight,
                                     view.height, view.gap, view.base};
     const glsl::osgLabels_Place at = glsl::osgLabels_placeOn(object, position, dx, dy, seen, width);
-    return {at.inside, at.place, at.footprint};
+    return {at.inside, at.place, at.footprint, {at.onLine[0], at.onLine[1], at.onLine[2]}};
 }
 
 std::string placementSource()

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <array>
 #include <string>
 
 namespace osgLabels
@@ -33,6 +34,9 @@ struct LabelPlace
     bool inside = false;       ///< Whether it is on a text.
     glm::vec2 place{0.0f};     ///< In em: x from 0 to the text's width, y from 0 to 1.
     glm::mat2 footprint{0.0f}; ///< d(place)/dx and d(place)/dy.
+    /// Where the text's line is a sixth, half and five sixths of the way, given as `position` is;
+    /// up to rounding the same from everywhere on the text.
+    std::array<glm::vec3, 3> onLine{};
 };
 
 /// Where text of `width` em lies at a point of an object. `position` is relative to the record's

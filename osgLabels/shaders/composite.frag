@@ -46,11 +46,33 @@ osgLabels_Place osgLabels_placeOf(osgLabels_Object object, uvec4 surface, ivec2 
     return osgLabels_locate(object, osgLabels_frameOf(int(surface.y)), at, width);
 }
 
-void main()
+ivec2 osgLabels_texelAt(vec2 pixel)
 {
-    ivec2 p = ivec2(gl_FragCoord.xy);
+    ivec2 p = ivec2(pixel);
     if (osgLabels_flippedHeight > 0)
         p.y = osgLabels_flippedHeight - 1 - p.y;
+    return p;
+}
+
+// The mean colour of the surface along a text's line, as far as it is in view; where none of it is,
+// of what hides its middle.
+vec3 osgLabels_seen(osgLabels_Place at, uint record)
+{
+    vec2 low = osgLabels_viewport.xy, high = low + 2.0 / osgLabels_viewport.zw - 1.0;
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 3; ++i)
+    {
+        ivec2 p = osgLabels_texelAt(clamp(at.onLine[i].xy, low, high));
+        bool isOwn = texelFetch(osgLabels_surfaces, p, 0).x == record;
+        float weight = isOwn ? 1.0 : i == 1 ? 1e-6 : 0.0;
+        sum += weight * vec4(texelFetch(osgLabels_color, p, 0).rgb, 1.0);
+    }
+    return sum.rgb / sum.a;
+}
+
+void main()
+{
+    ivec2 p = osgLabels_texelAt(gl_FragCoord.xy);
     uvec4 surface = texelFetch(osgLabels_surfaces, p, osgLabels_sample);
     if (surface.x == 0xffffffffu) // nothing is drawn here
         discard;
@@ -64,8 +86,8 @@ void main()
         {
             osgLabels_Place at = osgLabels_placeOf(object, surface, p, osgLabels_width(text));
             if (at.inside)
-                color = osgLabels_over(color, text, at.place, at.footprint,
-                                       osgLabels_styleOf(object.id));
+                color = osgLabels_over(color, text, at, osgLabels_styleOf(object.id),
+                                       osgLabels_seen(at, surface.x));
         }
     }
     osgmr_out0 = color;

@@ -29,5 +29,8 @@ vec4 osgLabels_direct(vec4 color, int index, vec2 texCoord, vec4 change)
             surface, width);
     if (!at.inside)
         return color;
-    return osgLabels_over(color, text, at.place, at.footprint, osgLabels_styleOf(object.id));
+    // No picture of the surface is there to choose ink by; the material's colour is the same for
+    // the whole text.
+    return osgLabels_over(color, text, at, osgLabels_styleOf(object.id),
+                          gl_FrontMaterial.diffuse.rgb);
 }

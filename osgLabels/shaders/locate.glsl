@@ -39,6 +39,17 @@ vec3 osgLabels_pointAt(osgLabels_Frame frame, bool parallel, vec2 ndc, float dis
     return frame.x * clip.x + frame.y * clip.y + frame.z * clip.z + frame.offset;
 }
 
+// The pixel of a point relative to the eye; one beside the view for what lies behind the eye.
+vec2 osgLabels_pixelAt(osgLabels_Frame frame, bool parallel, vec3 point)
+{
+    vec3 yz = cross(frame.y, frame.z);
+    vec3 clip = vec3(dot(yz, point - frame.offset),
+                     dot(cross(frame.z, frame.x), point - frame.offset),
+                     dot(cross(frame.x, frame.y), point - frame.offset)) / dot(frame.x, yz);
+    vec2 ndc = parallel ? clip.xy : clip.z > 0.0 ? clip.xy / clip.z : vec2(-2.0);
+    return (clamp(ndc, -2.0, 2.0) + 1.0) / osgLabels_viewport.zw + osgLabels_viewport.xy;
+}
+
 osgLabels_Place osgLabels_locate(osgLabels_Object object, osgLabels_Frame frame,
                                  osgLabels_Surface surface, float width)
 {
@@ -58,7 +69,10 @@ osgLabels_Place osgLabels_locate(osgLabels_Object object, osgLabels_Frame frame,
     view.up = frame.world;
     view.height = osgLabels_line.x;
     view.gap = osgLabels_line.y;
-    return osgLabels_placeOn(object, position, dx, dy, view, width);
+    osgLabels_Place at = osgLabels_placeOn(object, position, dx, dy, view, width);
+    for (int i = 0; i < 3; ++i)
+        at.onLine[i].xy = osgLabels_pixelAt(frame, parallel, at.onLine[i]);
+    return at;
 }
 
 // A label that follows texture coordinates.
@@ -72,6 +86,14 @@ osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, vec2 at, vec4 
     view.up = vec3(0.0);
     view.height = osgLabels_line.x;
     view.gap = osgLabels_line.y;
-    return osgLabels_placeOn(object, vec3(at - object.origin.xy, 0.0), vec3(change.xy, 0.0),
-                             vec3(change.zw, 0.0), view, width);
+    osgLabels_Place result =
+        osgLabels_placeOn(object, vec3(at - object.origin.xy, 0.0), vec3(change.xy, 0.0),
+                          vec3(change.zw, 0.0), view, width);
+    // As if the surface were flat and far away: only the ink's colour depends on it.
+    mat2 toPixels = inverse(result.footprint);
+    for (int i = 0; i < 3; ++i)
+        result.onLine[i].xy =
+            gl_FragCoord.xy +
+            toPixels * (vec2((float(i) + 0.5) * 0.3333333 * width, 0.5) - result.place);
+    return result;
 }

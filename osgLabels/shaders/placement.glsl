@@ -52,6 +52,8 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
 
     vec3 outward = vec3(cos(turn), sin(turn), 0.0f);
     line.middle = radius * outward + vec3(0.0f, 0.0f, band.middle.y);
+    line.axis = vec3(0.0f, 0.0f, 1.0f);
+    line.bend = runsAround ? vec2(radius, slope) : vec2(0.0f);
     if (runsAround)
     {
         line.at = vec2(w, base + sagged);
@@ -135,6 +137,7 @@ osgLabels_Line osgLabels_sphere(osgLabels_View view, vec3 p, float radius, float
     line.across = axes * line.across;
     line.middle = axes * line.middle;
     line.direction = axes * line.direction;
+    line.axis = axes * line.axis;
     return line;
 }
 
@@ -190,6 +193,8 @@ osgLabels_Line osgLabels_torus(osgLabels_View view, vec3 p, vec3 size, float wid
     line.middle = vec3(ring * turn.x, ring * turn.y, size.y * sin(psi0));
     line.direction = vec3(-turn.y, turn.x, 0.0f);
     line.beyond = 0.0f;
+    line.axis = vec3(0.0f, 0.0f, 1.0f);
+    line.bend = vec2(ring, 0.0f);
     return line;
 }
 
@@ -206,6 +211,8 @@ osgLabels_Line osgLabels_textured(osgLabels_View view, vec3 p, vec3 size, float 
     line.middle = vec3(0.0f);
     line.direction = vec3(0.0f);
     line.beyond = 0.0f;
+    line.axis = vec3(0.0f);
+    line.bend = vec2(0.0f);
     return line;
 }
 
@@ -249,6 +256,8 @@ osgLabels_Place osgLabels_placeOn(osgLabels_Object object, vec3 position, vec3 d
     result.inside = false;
     result.place = vec2(0.0f);
     result.footprint = mat2(0.0f);
+    for (int i = 0; i < 3; ++i)
+        result.onLine[i] = position;
     uint shape = object.shape & 0xffu;
     if (shape == 0u || !(width > 0.0f))
         return result;
@@ -283,6 +292,11 @@ osgLabels_Place osgLabels_placeOn(osgLabels_Object object, vec3 position, vec3 d
         vec3 normal = cross(dx, dy);
         normal /= max(max(abs(normal.x), max(abs(normal.y), abs(normal.z))), 1e-37f);
         line = osgLabels_lineOf(view, shape, p, normal, object.size, width);
+        for (int i = 0; i < 3; ++i)
+        {
+            float s = (float(i) - 1.0f) * 0.3333333f * width * line.em;
+            result.onLine[i] = position + osgLabels_toLine(line, p + view.base, s) * frame;
+        }
 
         // The line's direction on the screen, seen from anywhere along it, within 90 degrees of
         // one that rises by 22.5: so text on what stands upright, which is level with neither side,

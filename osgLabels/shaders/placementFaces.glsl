@@ -35,6 +35,8 @@ struct osgLabels_Place
     bool inside;    // Whether the point is on a text.
     vec2 place;     // In em, x from the text's start, y from its line's bottom.
     mat2 footprint; // Columns: what the place changes by a pixel to the right and up.
+    vec3 onLine[3]; // Points on the text's line, the same for all of a text: a sixth of the way,
+                    // half and five sixths. As positions; from osgLabels_locate() on as pixels.
 };
 
 // A point by a line of text, in lengths of the shape's frame.
@@ -47,6 +49,9 @@ struct osgLabels_Line
     vec3 direction; // Of the line there.
     float em;
     float beyond;   // Positive where the line's room has ended.
+    vec3 axis;      // Of a line that runs around one through the frame's origin.
+    vec2 bend;      // Of such a line its radius and the slope of the cone on which it is straight
+                    // when unrolled; 0 for a straight line.
 };
 
 // The share of its room that a text may fill along the line.
@@ -94,6 +99,27 @@ vec3 osgLabels_level(osgLabels_View view, vec3 normal, vec3 middle)
     return cross(view.screenUp, vec3(view.eye) - view.eye.w * middle);
 }
 
+// From a point q to the point of its line that lies s after the middle of the nearest text.
+vec3 osgLabels_toLine(osgLabels_Line line, vec3 q, float s)
+{
+    vec3 d = line.middle - q;
+    float radius = line.bend.x;
+    float slope = line.bend.y;
+    if (radius == 0.0f)
+        return d + (s - line.at.x - dot(d, line.direction)) * line.direction;
+    float turned = s / radius;
+    float up = 0.0f;
+    if (abs(slope) > 1e-5f)
+    {
+        turned = atan(s * slope / radius) / slope;
+        up = (length(vec2(radius, s * slope)) - radius) / slope;
+    }
+    vec3 outward = line.middle - dot(line.middle, line.axis) * line.axis;
+    vec3 ahead = cos(turned) * outward + sin(turned) * cross(line.axis, outward);
+    vec3 generator = slope / radius * ahead + sqrt(max(1.0f - slope * slope, 0.0f)) * line.axis;
+    return d - outward + ahead + up * generator;
+}
+
 // A rectangle with its middle, unit axes and half sides.
 osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, vec3 b, vec2 side,
                               float width)
@@ -119,6 +145,8 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
                                         osgLabels_period(room, count)),
                    dot(p + view.base - middle, line.across));
     line.beyond = 0.0f;
+    line.axis = vec3(0.0f);
+    line.bend = vec2(0.0f);
     return line;
 }
 
@@ -143,6 +171,8 @@ osgLabels_Line osgLabels_disc(osgLabels_View view, vec3 p, float z, float radius
     vec3 q = p + view.base;
     line.at = vec2(dot(q, line.along), dot(q, line.across));
     line.beyond = 0.0f;
+    line.axis = vec3(0.0f);
+    line.bend = vec2(0.0f);
     return line;
 }
 
@@ -197,5 +227,7 @@ osgLabels_Line osgLabels_pyramid(osgLabels_View view, vec3 p, float flatness, ve
     float x = dot(q, line.along);
     line.at = vec2(osgLabels_fromMiddle(0.0f, x, count, room / count), dot(q, line.across));
     line.beyond = abs(x) - 0.5f * room;
+    line.axis = vec3(0.0f);
+    line.bend = vec2(0.0f);
     return line;
 }

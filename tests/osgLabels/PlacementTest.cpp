@@ -289,6 +289,46 @@ TEST(PlacementTest, textLiesWithinItsFace)
     std::cout << walked << " corners of texts reached\n";
 }
 
+TEST(PlacementTest, pointsOnTheLineAreOnTheTextAndTheSameFromAllOfIt)
+{
+    int walked = 0;
+    forText(400,
+            [&](const PlacedShape& shape, const Sample& sample, const Camera& camera, float width,
+                const LabelPlace& place)
+            {
+                const double em = lengthsOfEm(sample, camera, place).x;
+                Sample other = sample;
+                if (!walk(shape.mesh, other, camera, width, {0.1 * width, 0.2}))
+                    return;
+                const LabelPlace there = placeAt(shape.mesh, other, camera, width);
+                const double side = glm::distance(place.onLine[0], there.onLine[0]) <
+                                            glm::distance(place.onLine[2], there.onLine[0])
+                                        ? 1.0
+                                        : -1.0;
+                for (int i = 0; i < 3; ++i)
+                {
+                    // The one end of the line where the other is the text's start.
+                    const int j = side > 0.0 ? i : 2 - i;
+                    EXPECT_LT(glm::distance(place.onLine[i], there.onLine[j]), 1e-3 * em)
+                        << shape.name << ", " << width << " em: point " << i;
+                    Sample at = sample;
+                    // A profile has its lines on the box around it.
+                    if (shape.mesh.truth.shape == Shape::Extrusion ||
+                        !walk(shape.mesh, at, camera, width, {(i + 0.5) / 3.0 * width, 0.5}))
+                        continue;
+                    // walk() comes within 0.02 em; a dish has its line on a cone that touches it.
+                    const double least = std::min(glm::distance(at.point - shape.mesh.truth.origin,
+                                                                glm::dvec3(place.onLine[i])),
+                                                  glm::distance(at.point - shape.mesh.truth.origin,
+                                                                glm::dvec3(place.onLine[2 - i])));
+                    EXPECT_LT(least, shape.mesh.truth.shape == Shape::Dish ? 0.3 * em : 0.05 * em)
+                        << shape.name << ", " << width << " em: point " << i;
+                    ++walked;
+                }
+            });
+    EXPECT_GT(walked, 1000);
+}
+
 TEST(PlacementTest, developableShapesDoNotStretchText)
 {
     std::map<std::string, double> worst;
