@@ -69,35 +69,27 @@ const osg::StateSet* SurfaceFrame::mergeUnder()
     return _merged.get();
 }
 
-void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const StateFor& over,
                                 const std::function<bool(const SurfaceItem&)>& select)
 {
     osg::State& state = *renderInfo.getState();
-    const bool hasProgram = over.getAttribute(osg::StateAttribute::PROGRAM) != nullptr;
-    std::vector<SurfaceItem> selected, instanced;
+    std::map<std::uint64_t, std::vector<SurfaceItem>> byInstance; // 0: without a VertexSnippet
     forEachItem(
         [&](const SurfaceItem& item)
         {
-            if (!item.variant || !select(item))
-                return;
-            // What is drawn many times has its places from a program with its VertexSnippet.
-            const bool keepsProgram = hasProgram && item.variant->getKey().instance;
-            (keepsProgram ? instanced : selected).push_back(item);
-            if (hasProgram && !keepsProgram)
-                selected.back().variant = nullptr;
+            if (item.variant && select(item))
+                byInstance[item.variant->getKey().instance].push_back(item);
         });
-    const auto drawUnder = [&](const osg::StateSet& stateSet, const std::vector<SurfaceItem>& items)
+    for (auto& [content, items] : byInstance)
     {
+        const osg::StateSet& stateSet = over(items.front().instance);
+        if (stateSet.getAttribute(osg::StateAttribute::PROGRAM))
+            for (SurfaceItem& item : items)
+                item.variant = nullptr;
         state.pushStateSet(&stateSet);
         draw(renderInfo, items.data(), items.size());
         state.popStateSet();
-    };
-    drawUnder(over, selected);
-    if (instanced.empty())
-        return;
-    const osg::ref_ptr<osg::StateSet> withoutProgram = new osg::StateSet(over);
-    withoutProgram->removeAttribute(osg::StateAttribute::PROGRAM);
-    drawUnder(*withoutProgram, instanced);
+    }
 }
 
 void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,

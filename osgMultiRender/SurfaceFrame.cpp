@@ -149,6 +149,7 @@ void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ord
 {
     item.leaf = &leaf;
     item.state = surface.state;
+    item.instance = surface.instance;
     if (surface.beyond)
     {
         ++surface.beyond->second;

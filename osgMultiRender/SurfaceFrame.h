@@ -24,6 +24,7 @@ struct SurfaceItem
     bool diverted = false;                  ///< Drawn through SurfacePass::divert().
     std::uint32_t order = 0;                ///< Of the variant, by first appearance in the frame.
     const SurfaceState* state = nullptr;    ///< Of the leaf; null below OpenGL 3.3.
+    const std::string* instance = nullptr;  ///< GLSL of its VertexSnippet; null for none.
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -79,11 +80,14 @@ public:
     /// Calls `f` for each leaf. Only from SurfacePass::end() on.
     void forEachItem(const std::function<void(const SurfaceItem&)>& f) const;
 
-    /// Draws the leaves that `select` picks into the current framebuffer, with `over` over their
-    /// own state: a StateSet whose attributes and modes have OVERRIDE. Where it has a Program, this
-    /// one draws; where it has none, the leaf's variant does. Leaves without a variant are left
-    /// out.
-    void drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+    /// The StateSet for leaves with a VertexSnippet of this GLSL; null for those without.
+    using StateFor = std::function<const osg::StateSet&(const std::string* instance)>;
+
+    /// Draws the leaves that `select` picks into the current framebuffer, with what `over` gives
+    /// over their own state: a StateSet whose attributes and modes have OVERRIDE. Where it has a
+    /// Program, this one draws, and has to place vertices as the VertexSnippet does; where it has
+    /// none, the leaf's variant draws. Leaves without a variant are left out.
+    void drawSelected(osg::RenderInfo& renderInfo, const StateFor& over,
                       const std::function<bool(const SurfaceItem&)>& select);
 
     const std::vector<osgUtil::RenderLeaf*>& getLeaves(std::size_t bin) const { return _bins[bin]; }

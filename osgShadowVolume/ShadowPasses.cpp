@@ -146,7 +146,18 @@ std::string headOf(Pass pass, const ShadowPasses::Tier& tier)
 
 const osg::StateSet& ShadowPasses::get(Pass pass, const Tier& tier, Count count)
 {
-    const Key key{pass, tier, count};
+    return get(Key{pass, tier, count, {}});
+}
+
+const osg::StateSet& ShadowPasses::getFor(Pass pass, const Tier& tier, const std::string* instance)
+{
+    const bool placesVertices = !stagesOf(pass).empty();
+    return get(
+        Key{pass, tier, Count::ZPass, instance && placesVertices ? *instance : std::string()});
+}
+
+const osg::StateSet& ShadowPasses::get(const Key& key)
+{
     std::lock_guard<std::mutex> lock(_mutex);
     osg::ref_ptr<osg::StateSet>& state = _states[key];
     if (!state)
@@ -183,9 +194,11 @@ osg::ref_ptr<osg::Program> ShadowPasses::makeProgram(const Key& key)
         return nullptr;
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setThreadSafeRefUnref(true);
-    const std::string head = headOf(key.pass, key.tier);
     for (const Stage& stage : stages)
     {
+        std::string head = headOf(key.pass, key.tier);
+        if (stage.type == osg::Shader::VERTEX && !key.instance.empty())
+            head += "#define OSGSV_INSTANCE\n" + key.instance;
         osg::ref_ptr<osg::Shader> text = osgDB::readRefShaderFileWithFallback(
             stage.type, std::string("osgShadowVolume/") + stage.file, stage.text);
         osg::ref_ptr<osg::Shader> shader =

@@ -50,6 +50,9 @@ public:
 
     /// The state of a pass; `count` is for the volumes alone. Lives as long as this.
     const osg::StateSet& get(Pass pass, const Tier& tier, Count count = Count::ZPass);
+    /// Of a pass that draws receivers, for those that a VertexSnippet with this GLSL places; null
+    /// for all others.
+    const osg::StateSet& getFor(Pass pass, const Tier& tier, const std::string* instance);
 
     void releaseGLObjects(osg::State* state) const;
 
@@ -59,13 +62,17 @@ private:
         Pass pass;
         Tier tier;
         Count count;
+        std::string instance; ///< GLSL; empty for none.
         bool operator<(const Key& other) const
         {
+            if (instance != other.instance)
+                return instance < other.instance;
             if (pass != other.pass)
                 return pass < other.pass;
             return count != other.count ? count < other.count : tier < other.tier;
         }
     };
+    const osg::StateSet& get(const Key& key);
     osg::ref_ptr<osg::StateSet> make(const Key& key);
     osg::ref_ptr<osg::Program> makeProgram(const Key& key);
 

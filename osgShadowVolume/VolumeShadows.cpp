@@ -180,6 +180,12 @@ bool VolumeShadows::acquireTargets(osg::State& state, const TargetLayout& layout
     return false;
 }
 
+osgMultiRender::SurfaceFrame::StateFor VolumeShadows::statesOf(Pass pass)
+{
+    return [this, pass](const std::string* instance) -> const osg::StateSet&
+    { return _resources.passes.getFor(pass, _tier, instance); };
+}
+
 void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
                                const Items& isReceiver)
 {
@@ -194,7 +200,7 @@ void VolumeShadows::drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::Surf
     };
     const auto draw = [&](Pass pass, bool holes)
     {
-        frame.drawSelected(renderInfo, _resources.passes.get(pass, _tier),
+        frame.drawSelected(renderInfo, statesOf(pass),
                            [&](const SurfaceItem& item) {
                                return isReceiver(item) && isOpaque(item) && hasHoles(item) == holes;
                            });
@@ -226,13 +232,9 @@ bool VolumeShadows::peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     gl->glGenQueries(1, &query);
     gl->glBeginQuery(GL_SAMPLES_PASSED_ARB, query);
     state.pushStateSet(inputs);
-    frame.drawSelected(renderInfo, _resources.passes.get(Pass::Peel, _tier),
+    frame.drawSelected(renderInfo, statesOf(Pass::Peel),
                        [&](const SurfaceItem& item)
-                       {
-                           // Instanced ones have their places from a program that does not peel.
-                           return isReceiver(item) && !isOpaque(item) &&
-                                  !item.variant->getKey().instance;
-                       });
+                       { return isReceiver(item) && !isOpaque(item); });
     state.popStateSet();
     gl->glEndQuery(GL_SAMPLES_PASSED_ARB);
     GLuint passed = 0;

@@ -41,6 +41,7 @@ private:
 
     void drawDepths(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
                     const Items& isReceiver);
+    osgMultiRender::SurfaceFrame::StateFor statesOf(ShadowPasses::Pass pass);
     /// Draws the next transparent layer; false when nothing is left.
     bool peel(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
               const Items& isReceiver, int layer);

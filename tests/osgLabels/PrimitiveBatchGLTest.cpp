@@ -11,10 +11,14 @@
 #include <osgShadowVolume/ShadowedScene.h>
 #endif
 
+#include <osg/BlendFunc>
+#include <osg/Depth>
 #include <osg/Geometry>
 #include <osg/LightSource>
 #include <osg/Material>
 #include <osg/MatrixTransform>
+#include <osg/ShapeDrawable>
+#include <osg/ValueObject>
 #include <osgDB/ReadFile>
 
 #include <gtest/gtest.h>
@@ -254,5 +258,65 @@ TEST_F(PrimitiveBatchGLTest, castsAndTakesShadowsAsGeometriesDo)
     batch->setLevel(VisitorLevel);
     EXPECT_TRUE(
         SamePicture(lit(batch), lit(geometriesOf(*batch, VisitorLevel)), "primitivesShadowed"));
+}
+
+TEST_F(PrimitiveBatchGLTest, transparentObjectsBehindEachOtherHaveShadowsOfTheirOwn)
+{
+    // Three panes that add, in any order the same, over a black floor; a box beside them throws its
+    // shadow slantwise through all.
+    const auto lit = [&](osg::Node* panes)
+    {
+        osg::ref_ptr<osgShadowVolume::ShadowedScene> scene = new osgShadowVolume::ShadowedScene;
+        panes->setUserValue("castShadow", false);
+        osg::ref_ptr<osg::LightSource> sun = new osg::LightSource;
+        sun->getLight()->setLightNum(1);
+        sun->getLight()->setDiffuse({0.9f, 0.9f, 0.9f, 1.0f});
+        sun->getLight()->setPosition({-0.9f, 0.2f, 1.0f, 0.0f});
+        scene->getOrCreateStateSet()->setMode(GL_LIGHT1, osg::StateAttribute::ON);
+        scene->addChild(sun);
+        osg::ref_ptr<osg::Group> black = new osg::Group;
+        osg::ref_ptr<osg::Material> material = new osg::Material;
+        material->setAmbient(osg::Material::FRONT_AND_BACK, {0, 0, 0, 1});
+        material->setDiffuse(osg::Material::FRONT_AND_BACK, {0, 0, 0, 1});
+        black->getOrCreateStateSet()->setAttribute(material);
+        black->addChild(new osg::ShapeDrawable(new osg::Box({13.5f, 0, -3.0f}, 40, 40, 0.1f)));
+        black->addChild(new osg::ShapeDrawable(new osg::Box({11.0f, 0, 2.4f}, 1.5f)));
+        scene->addChild(black);
+        constexpr auto over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+        osg::StateSet& state = *panes->getOrCreateStateSet();
+        state.setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE), over);
+        state.setAttributeAndModes(new osg::Depth(osg::Depth::LEQUAL, 0.0, 1.0, false), over);
+        state.setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        scene->addChild(panes);
+        return picture(scene, cameraAt({}));
+    };
+    std::vector<Primitive> panes;
+    for (int i = 0; i < 3; ++i)
+    {
+        Primitive pane;
+        pane.shape = Shape::Quad;
+        pane.size.set(8.0f, 5.0f, 0.0f);
+        pane.position.set(13.5, 0.0, 0.9 * i - 1.2);
+        pane.color = {static_cast<unsigned char>(i == 0 ? 230 : 0),
+                      static_cast<unsigned char>(i == 1 ? 230 : 0),
+                      static_cast<unsigned char>(i == 2 ? 230 : 0), 128};
+        panes.push_back(pane);
+    }
+    const auto batch = batchOf(panes);
+    batch->setLevel(VisitorLevel);
+    const auto geometries = geometriesOf(*batch, VisitorLevel);
+    const auto actual = lit(batch), expected = lit(geometries);
+    support::writeImage(*actual, "primitivesLayers");
+    EXPECT_TRUE(SamePicture(actual, expected, "primitivesPeeled"));
+    // Each has a shadow that the others have not: all but one channel is lit there.
+    int shares[3] = {};
+    for (int y = 0; y < Height; ++y)
+        for (int x = 0; x < Width; ++x)
+            for (int c = 0; c < 3; ++c)
+                shares[c] += expected->data(x, y)[c] < 160 &&
+                             expected->data(x, y)[(c + 1) % 3] > 200 &&
+                             expected->data(x, y)[(c + 2) % 3] > 200;
+    for (const int share : shares)
+        EXPECT_GT(share, 100);
 }
 #endif
