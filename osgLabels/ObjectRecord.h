@@ -31,7 +31,11 @@ enum class Shape : std::uint32_t
 enum ShapeFlags : std::uint32_t
 {
     ShapeMask = 0xffu,
-    Projected = 0x100u ///< A box around a mesh that was not recognised as a shape.
+    Projected = 0x100u, ///< A box around a mesh that was not recognised as a shape.
+    /// From this bit on, for x, y and z, how much of the faces across the axis no text may use, in
+    /// fifteenths; RoomBits each.
+    RoomShift = 9,
+    RoomBits = 4
 };
 
 /// What the fragment shader knows of one labelled object: 48 bytes in a texture buffer, three

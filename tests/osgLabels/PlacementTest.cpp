@@ -514,6 +514,59 @@ TEST(PlacementTest, thinAndLongFacesKeepTheirText)
     EXPECT_NEAR(inside, 800, 20);
 }
 
+TEST(PlacementTest, shortTextsAreRepeatedAlongWhatIsLongAndStandOnceOnWhatIsNot)
+{
+    using namespace shapemesh;
+    struct Case
+    {
+        const char* name;
+        ShapeMesh mesh;
+        glm::dvec3 normal; ///< Of the side where the text is looked at.
+        bool isLong;
+    };
+    const Case cases[] = {{"pipe", frustum(0.1, 0.1, 6.0, 32, 1, FanCapped), {0, 1, 0}, true},
+                          {"pole", frustum(0.2, 0.2, 1.2, 32, 1, FanCapped), {0, 1, 0}, true},
+                          {"tank", frustum(0.5, 0.5, 0.6, 32, 1, FanCapped), {0, 1, 0}, false},
+                          {"rail", box({0.1, 0.2, 4.0}, false), {0, 1, 0}, true},
+                          {"post", box({0.1, 0.1, 0.4}, false), {0, 1, 0}, true},
+                          {"block", box({0.5, 0.5, 0.7}, false), {0, 1, 0}, false}};
+    for (const Case& each : cases)
+        for (const float width : {0.6f, 1.2f, 1.8f, 2.4f})
+            for (const glm::dvec3 up : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0)})
+            {
+                const Camera camera(glm::dvec3(1.0, 8.0, 1.5), up);
+                const glm::dvec3 size = each.mesh.truth.size;
+                bool runsAlong = false;
+                int texts = 0;
+                double last = 1e9;
+                for (double z = -size.z; z < size.z; z += 0.002 * size.x)
+                {
+                    const Sample sample{each.normal * size.y + glm::dvec3(0, 0, z), each.normal,
+                                        false};
+                    const LabelPlace at = placeAt(each.mesh, sample, camera, width);
+                    if (!at.inside)
+                        continue;
+                    // Along the text, seen from below to above.
+                    const glm::dvec2 step =
+                        glm::dvec2(at.footprint *
+                                   glm::vec2(camera.project(sample.point + glm::dvec3(0, 0, 1e-3)) -
+                                             camera.project(sample.point)));
+                    runsAlong = std::abs(step.x) > std::abs(step.y);
+                    texts += std::abs(at.place.x - last) > 0.5 * width;
+                    last = at.place.x;
+                }
+                const std::string what = std::string(each.name) + ", " + std::to_string(width) +
+                                         " em, up " + (up.z > 0.0 ? "z" : "x");
+                if (each.isLong)
+                {
+                    EXPECT_TRUE(runsAlong) << what;
+                    EXPECT_GE(texts, width < 2.0f ? 2 : 1) << what;
+                }
+                else if (up.z > 0.0)
+                    EXPECT_FALSE(runsAlong) << what;
+            }
+}
+
 TEST(PlacementTest, badObjectsHaveNoText)
 {
     const float nan = std::numeric_limits<float>::quiet_NaN();
