@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "LabelCodes.h"
+
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/Shaders.h>
 
@@ -21,8 +23,6 @@ namespace
 {
 
 constexpr int Width = 1026; ///< Length, 1024 codes, style.
-
-constexpr std::uint32_t awkward[] = {1, 255, 256, 65535, 65536, (1u << 24) + 1, 0x7fffffffu};
 
 const char vertexShader[] = R"(#version 330 compatibility
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
@@ -154,14 +154,6 @@ protected:
             viewer.getViewer().getCamera()->getGraphicsContext()->getState()->getContextID());
     }
 };
-
-Codes sequence(std::size_t length, std::uint32_t first, std::uint32_t glyphs)
-{
-    Codes codes(length);
-    for (std::size_t i = 0; i < length; ++i)
-        codes[i] = (first + static_cast<std::uint32_t>(i)) % glyphs;
-    return codes;
-}
 
 } // namespace
 

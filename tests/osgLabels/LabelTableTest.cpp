@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "LabelCodes.h"
 #include "TableMirror.h"
 
 #include <gtest/gtest.h>
@@ -14,14 +15,6 @@ using Codes = LabelTable::Codes;
 namespace
 {
 
-Codes sequence(std::size_t length, std::uint32_t first, std::uint32_t glyphs)
-{
-    Codes codes(length);
-    for (std::size_t i = 0; i < length; ++i)
-        codes[i] = (first + static_cast<std::uint32_t>(i)) % glyphs;
-    return codes;
-}
-
 /// Different for each number, 20 codes over 63 glyphs.
 Codes tag(std::uint32_t number)
 {
@@ -34,8 +27,6 @@ Codes tag(std::uint32_t number)
         codes[i] = static_cast<std::uint32_t>(mixed >> 40) % 63;
     return codes;
 }
-
-constexpr std::uint32_t awkward[] = {1, 255, 256, 65535, 65536, (1u << 24) + 1, 0x7fffffffu};
 
 } // namespace
 

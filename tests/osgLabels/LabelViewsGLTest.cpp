@@ -3,7 +3,6 @@
 // origin shows, and the look of the model where there are none.
 #include "LabelPictures.h"
 
-#include <support/NotifyCapture.h>
 #include <support/WindowViews.h>
 
 #include <osg/Depth>
@@ -18,19 +17,14 @@ using support::CameraSpec;
 namespace
 {
 
-class LabelViews : public testing::Test
+class LabelViews : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 /// A board, a box before it and a transparent pane, each with a name.
 osg::ref_ptr<osg::Group> plant()
 {
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Group> group = unlit();
     group->addChild(named("P-101 A/B", rectangle({-1.2f, 0.3f, -0.2f}, {2.4f, 0, 0}, {0, 0, 0.9f},
                                                  {0.8f, 0.7f, 0.5f, 1.0f})));
     group->addChild(box("VESSEL", {0.0f, 0.0f, -0.55f}, {0.9f, 0.2f, 0.25f}));
@@ -138,8 +132,7 @@ TEST_F(LabelViews, samplesKeepTheLookAndNeverMixIdentifiers)
     OSGKITS_NEED_GL(smooth);
     smooth.getViewer().setLightingMode(osg::View::NO_LIGHT);
     // Many thin edges between identifiers that are far apart: a mean would be a third label.
-    osg::ref_ptr<osg::Group> bars = new osg::Group;
-    bars->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Group> bars = unlit();
     for (int i = 0; i < 24; ++i)
         bars->addChild(named(i % 3 ? "I" : "MMMMMMMMMM",
                              rectangle({-1.2f + 0.1f * float(i), 0.01f * float(i % 5), -0.9f},
