@@ -82,6 +82,27 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
     return osg::Matrixd::transform3x3(v, m);
 }
 
+/// Of the directions; a product of two such lengths bounds how far one matrix stretches what the
+/// other squeezes.
+double lengthOf(const osg::Matrixd& m)
+{
+    double squares = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            squares += m(i, j) * m(i, j);
+    return std::sqrt(squares);
+}
+
+/// The inverse of a modelview matrix. Zero where it squeezes a direction so much that eye
+/// coordinates, in single precision, do not say where a point is: then nothing has a label.
+osg::Matrixd inverseOf(const osg::Matrixd& modelview)
+{
+    constexpr double most = 1e11;
+    const osg::Matrixd inverse = osg::Matrixd::inverse(modelview);
+    const bool isExact = lengthOf(modelview) * lengthOf(inverse) < most; // false for NaN, too
+    return isExact ? inverse : osg::Matrixd::scale(0.0, 0.0, 0.0);
+}
+
 } // namespace
 
 LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
@@ -246,7 +267,7 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
             clip(i, j) = projection(i, columns[j]);
-    const osg::Matrixd toLocal = osg::Matrixd::inverse(modelview);
+    const osg::Matrixd toLocal = inverseOf(modelview);
     const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
     osg::Vec3d rows[9];
     for (int i = 0; i < 3; ++i)
