@@ -85,16 +85,20 @@ std::string LabelPass::whyIncomplete(osg::State& state)
 
 void LabelPass::readPicked(osg::State& state)
 {
-    // Nothing lies beside the view.
-    if (!_asked || !(std::abs(_asked->x) <= 1.0) || !(std::abs(_asked->y) <= 1.0))
-        return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
-    const unsigned int index =
-        _targets->readIndex(state, pixel(_asked->x, _viewport[0], _viewport[2]),
-                            pixel(_asked->y, _viewport[1], _viewport[3]));
-    if (index != LabelTargets::Nothing)
-        _picked = _resources->objects.getIdentifier(index);
+    for (Asked& asked : _asked)
+    {
+        // Nothing lies beside the view.
+        if (!asked.question || !(std::abs(asked.question->x) <= 1.0) ||
+            !(std::abs(asked.question->y) <= 1.0))
+            continue;
+        const unsigned int index =
+            _targets->readIndex(state, pixel(asked.question->x, _viewport[0], _viewport[2]),
+                                pixel(asked.question->y, _viewport[1], _viewport[3]));
+        if (index != LabelTargets::Nothing)
+            asked.identifier = _resources->objects.getIdentifier(index);
+    }
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)

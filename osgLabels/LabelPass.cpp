@@ -84,21 +84,25 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 
 } // namespace
 
-LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
+LabelPass::LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks)
+    : _resources(std::move(resources)), _picks(std::move(picks))
 {
 }
 
 LabelPass::~LabelPass()
 {
+    for (std::size_t i = 0; i < _asked.size(); ++i)
+        if (_asked[i].question) // the picture was not drawn
+            _picks->of[i].giveBack(*_asked[i].question);
     if (_targets)
         _resources->targets.release(_contextID, _targets);
 }
 
 void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
 {
-    if (!_resources || !_resources->collector)
-        return;
+    takeQuestions(visitor);
     bool isEmpty = true;
+    if (_resources && _resources->collector)
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
         forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
@@ -110,9 +114,27 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
                             _objects.emplace(&leaf, object);
                     });
     }
-    _resources->fitNew();
-    if (isEmpty && _resources->pick.takeQuestion()) // nothing will be drawn
-        _resources->pick.answer(0);
+    if (_resources)
+        _resources->fitNew();
+    if (isEmpty) // nothing will be drawn
+        answer();
+}
+
+/// Mirrors and other pictures in the view are drawn by cameras of their own.
+void LabelPass::takeQuestions(osgUtil::CullVisitor& visitor)
+{
+    const osg::Camera* camera = visitor.getCurrentRenderBin()->getStage()->getCamera();
+    const osgUtil::RenderStage* view = visitor.getRenderStage();
+    for (std::size_t i = 0; i < _asked.size(); ++i)
+        _asked[i].question = _picks->of[i].take(camera, !view || view->getCamera() == camera);
+}
+
+void LabelPass::answer()
+{
+    for (std::size_t i = 0; i < _asked.size(); ++i)
+        if (_asked[i].question)
+            _picks->of[i].answer({_asked[i].identifier, _resources});
+    _asked = {};
 }
 
 std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
@@ -153,7 +175,6 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
-    _asked = _resources->pick.takeQuestion();
     _targets = _resources->targets.acquire(
         _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3],
                      _resources->settings.texCoord >= 0, _target});
@@ -341,11 +362,7 @@ bool LabelPass::diverts(const SurfaceItem& item) const
 
 void LabelPass::drawn(osg::RenderInfo&)
 {
-    // Where nothing labelled is in view nothing is under the point either.
-    if (_resources && !_asked && !_reason.empty())
-        _asked = _resources->pick.takeQuestion();
-    if (_asked)
-        _resources->pick.answer(_picked);
+    answer();
 }
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const

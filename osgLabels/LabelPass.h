@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelResources.h>
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTargets.h>
@@ -36,8 +37,8 @@ enum OutputBits : std::uint32_t
 class LabelPass : public osgMultiRender::SurfacePass
 {
 public:
-    /// Null: labels are not shown.
-    explicit LabelPass(std::shared_ptr<LabelResources> resources);
+    /// Without resources labels are not shown.
+    LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks);
     ~LabelPass() override;
 
     osgMultiRender::SurfaceRole getRole() const override
@@ -95,6 +96,8 @@ private:
                      const osg::Viewport* viewport) const;
     void clear(osg::State& state) const;
     std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
+    void takeQuestions(osgUtil::CullVisitor& visitor);
+    void answer();
     void readPicked(osg::State& state);
     /// Why OpenGL can't draw into the targets, said once on the console; empty where it can.
     std::string whyIncomplete(osg::State& state);
@@ -102,6 +105,7 @@ private:
     void makeUnder(osg::State& state);
 
     const std::shared_ptr<LabelResources> _resources;
+    const std::shared_ptr<LabelPicks> _picks;
     std::string _reason; ///< Why there are no labels in this view; empty where there are.
     unsigned int _contextID = 0;
     float _languageVersion = 3.3f;
@@ -114,8 +118,13 @@ private:
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;
     std::map<std::pair<const osg::RefMatrix*, const osg::RefMatrix*>, int> _frameNumbers;
-    std::optional<LabelPick::Point> _asked;
-    std::uint32_t _picked = 0; ///< What lies there, as far as is drawn.
+    /// What this picture is asked, by PickAsker, and what lies there, as far as is drawn.
+    struct Asked
+    {
+        std::optional<LabelPick::Question> question;
+        std::uint32_t identifier = 0;
+    };
+    std::array<Asked, LabelPicks::Askers> _asked;
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

@@ -7,7 +7,6 @@
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/LabelCollector.h>
 #include <osgLabels/LabelObjects.h>
-#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelPrograms.h>
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTable.h>
@@ -59,7 +58,6 @@ public:
     std::unique_ptr<LabelCollector> collector; ///< Null where there is an error.
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;
-    LabelPick pick;
     const osg::ref_ptr<osg::Geometry> screen = osgMultiRender::makeScreenTriangle();
 
 private:

@@ -47,24 +47,23 @@ std::string LabelScene::getText(std::uint32_t identifier) const
     return resources ? resources->getText(identifier) : std::string();
 }
 
-void LabelScene::pick(double x, double y)
+void LabelScene::pick(double x, double y, const osg::Camera* camera, PickAsker asker)
 {
-    const std::shared_ptr<LabelResources> resources = getResources();
-    if (resources && _isShown)
-        resources->pick.ask({x, y});
-    else if (resources)
-        resources->pick.answer(0);
+    LabelPick& pick = (*_picks)[asker];
+    pick.ask({x, y, camera});
+    if (!_isShown && pick.take(camera, true))
+        pick.answer({});
 }
 
-std::optional<LabelScene::Picked> LabelScene::takePicked()
+std::optional<LabelScene::Picked> LabelScene::takePicked(PickAsker asker)
 {
-    const std::shared_ptr<LabelResources> resources = getResources();
-    const std::optional<std::uint32_t> identifier =
-        resources ? resources->pick.takeAnswer() : std::nullopt;
-    if (!identifier)
+    const std::optional<LabelPick::Answer> answer = (*_picks)[asker].takeAnswer();
+    if (!answer)
         return std::nullopt;
-    return Picked{*identifier, resources->getText(*identifier),
-                  resources->getPath(*this, *identifier)};
+    if (!answer->resources)
+        return Picked{};
+    return Picked{answer->identifier, answer->resources->getText(answer->identifier),
+                  answer->resources->getPath(*this, answer->identifier)};
 }
 
 void LabelScene::setSettings(const LabelSettings& settings)
@@ -129,7 +128,7 @@ void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
-    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr);
+    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr, _picks);
 }
 
 } // namespace osgLabels
