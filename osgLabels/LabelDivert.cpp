@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 namespace osgLabels
 {
@@ -21,6 +22,33 @@ namespace
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
+/// Lets draws write one sample; leaves the mask as it was.
+class OneSample
+{
+public:
+    explicit OneSample(const osg::GLExtensions& gl) : _gl(gl), _wasOn(glIsEnabled(Mode))
+    {
+        LabelExtensions::instance().getIntegeri(Value, 0, &_mask);
+        glEnable(Mode);
+    }
+    ~OneSample()
+    {
+        _gl.glSampleMaski(0, static_cast<GLbitfield>(_mask));
+        if (!_wasOn)
+            glDisable(Mode);
+    }
+    OneSample(const OneSample&) = delete;
+    OneSample& operator=(const OneSample&) = delete;
+
+    void set(int sample) const { _gl.glSampleMaski(0, 1u << sample); }
+
+private:
+    static constexpr GLenum Mode = 0x8E51, Value = 0x8E52; ///< GL_SAMPLE_MASK, its value
+    const osg::GLExtensions& _gl;
+    const bool _wasOn;
+    GLint _mask = ~0;
+};
 
 } // namespace
 
@@ -123,24 +151,18 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
         pass->addUniform(sample);
     state.pushStateSet(_under);
     state.pushStateSet(pass);
-    const auto* gl = state.get<osg::GLExtensions>();
-    constexpr GLenum sampleMask = 0x8E51;
+    std::optional<OneSample> one;
     for (int i = 0; i < samples; ++i)
     {
         sample->set(i);
         state.apply();
-        if (samples > 1)
-        {
-            glEnable(sampleMask);
-            gl->glSampleMaski(0, 1u << i);
-        }
+        if (samples > 1 && !one)
+            one.emplace(*state.get<osg::GLExtensions>());
+        if (one)
+            one->set(i);
         _resources->screen->draw(renderInfo);
     }
-    if (samples > 1)
-    {
-        gl->glSampleMaski(0, ~0u);
-        glDisable(sampleMask);
-    }
+    one.reset();
     state.popStateSet();
     state.popStateSet();
 }
