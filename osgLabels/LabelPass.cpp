@@ -49,13 +49,24 @@ osg::Vec3d axisOf(LabelUp up)
     return {};
 }
 
-void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil::RenderLeaf&)>& f)
+/// Whether the StateSet is on the path to the graph.
+bool isBelow(const osgUtil::StateGraph* graph, const osg::StateSet& scope)
+{
+    while (graph && graph->getStateSet() != &scope)
+        graph = graph->_parent;
+    return graph;
+}
+
+/// Of the scope, or of all where it is null.
+void forEachLeaf(osgUtil::RenderBin& bin, const osg::StateSet* scope,
+                 const std::function<void(const osgUtil::RenderLeaf&)>& f)
 {
     for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
-        for (const auto& leaf : graph->_leaves)
-            f(*leaf);
+        if (!scope || isBelow(graph, *scope))
+            for (const auto& leaf : graph->_leaves)
+                f(*leaf);
     for (const auto& [number, inner] : bin.getRenderBinList())
-        forEachLeaf(*inner, f);
+        forEachLeaf(*inner, scope, f);
 }
 
 /// Its vertices say which objects they are of.
@@ -98,17 +109,16 @@ LabelPass::~LabelPass()
         _resources->targets.release(_contextID, _targets);
 }
 
-void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
+void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+                     const osg::StateSet* scope)
 {
     takeQuestions(visitor);
-    bool isEmpty = true;
     if (_resources && _resources->collector)
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
-        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
+        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(), scope,
                     [&](const osgUtil::RenderLeaf& leaf)
                     {
-                        isEmpty = false;
                         const std::uint32_t object = objectOf(leaf, view);
                         if (object)
                             _objects.emplace(&leaf, object);
@@ -116,8 +126,6 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
     }
     if (_resources)
         _resources->fitNew();
-    if (isEmpty) // nothing will be drawn
-        answer();
 }
 
 /// Mirrors and other pictures in the view are drawn by cameras of their own.
@@ -126,7 +134,8 @@ void LabelPass::takeQuestions(osgUtil::CullVisitor& visitor)
     const osg::Camera* camera = visitor.getCurrentRenderBin()->getStage()->getCamera();
     const osgUtil::RenderStage* view = visitor.getRenderStage();
     for (std::size_t i = 0; i < _asked.size(); ++i)
-        _asked[i].question = _picks->of[i].take(camera, !view || view->getCamera() == camera);
+        if (!_asked[i].question)
+            _asked[i].question = _picks->of[i].take(camera, !view || view->getCamera() == camera);
 }
 
 void LabelPass::answer()

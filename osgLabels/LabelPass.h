@@ -45,7 +45,8 @@ public:
     {
         return osgMultiRender::SurfaceRole::Output;
     }
-    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
+    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+              const osg::StateSet* scope) override;
     void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;

@@ -9,6 +9,7 @@
 
 #include <osg/GLExtensions>
 #include <osg/Notify>
+#include <osg/Timer>
 
 #include <algorithm>
 #include <set>
@@ -22,30 +23,36 @@ namespace
 
 bool byOrder(const SurfaceItem& a, const SurfaceItem& b)
 {
-    return a.diverted != b.diverted ? a.diverted : a.order < b.order;
+    if (a.diverted != b.diverted)
+        return a.diverted;
+    // Those of an output pass follow each other.
+    if (a.passes != b.passes)
+        return std::make_pair(a.passes[1], a.passes[0]) < std::make_pair(b.passes[1], b.passes[0]);
+    return a.order < b.order;
 }
 
 } // namespace
 
-unsigned int SurfaceFrame::passesOf(const osgUtil::StateGraph* graph) const
+SurfacePasses SurfaceFrame::passesOf(const osgUtil::StateGraph* graph) const
 {
-    unsigned int passes = 0;
-    for (std::size_t i = 0; i < _passes.size(); ++i)
-    {
-        bool inside = !_passes[i].scope;
-        for (const osgUtil::StateGraph* g = graph; g && !inside; g = g->_parent)
-            inside = g->getStateSet() == _passes[i].scope;
-        passes |= inside ? 1u << i : 0u;
-    }
+    SurfacePasses passes{NoPass, NoPass};
+    passes[_passes.front().role()] = 0;
+    for (const osgUtil::StateGraph* g = graph; g && !_scopes.empty(); g = g->_parent)
+        if (const auto found = _scopes.find(g->getStateSet()); found != _scopes.end())
+            passes[_passes[found->second].role()] = found->second;
     return passes;
 }
 
-LightingMode SurfaceFrame::lightingOf(unsigned int passes) const
+LightingMode SurfaceFrame::lightingOf(const SurfacePasses& passes) const
 {
-    for (std::size_t i = 0; i < _passes.size(); ++i)
-        if (_passes[i].isLight() && (passes & (1u << i)))
-            return _passes[i].pass->getLighting();
-    return LightingMode::Vertex;
+    const std::uint16_t light = passes[LightRole];
+    return light == NoPass ? LightingMode::Vertex : _passes[light].pass->getLighting();
+}
+
+bool SurfaceFrame::isOf(const SurfacePass& pass, const SurfaceItem& item) const
+{
+    const std::uint16_t place = item.passes[static_cast<std::size_t>(pass.getRole())];
+    return place != NoPass && _passes[place].pass.get() == &pass;
 }
 
 const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
@@ -61,24 +68,32 @@ const SurfaceState& SurfaceFrame::stateOf(const osgUtil::StateGraph* graph)
     return _states.emplace(graph, std::move(state)).first->second;
 }
 
-SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const osg::Program* program,
-                                        const std::string* instance)
+SurfaceSnippet SurfaceFrame::makeSnippet(const SurfaceKey& key, const SurfacePasses& passes,
+                                         bool hasProgram) const
 {
-    osg::ref_ptr<SurfaceVariant>& variant = _variants[key];
+    SurfaceSnippet snippet;
+    if (passes[LightRole] != NoPass && !hasProgram)
+        snippet += _passes[passes[LightRole]].pass->makeSnippet(key);
+    if (passes[OutputRole] != NoPass && key.output)
+        snippet += _passes[passes[OutputRole]].pass->makeSnippet(key);
+    return snippet;
+}
+
+SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const SurfacePasses& passes,
+                                        const osg::Program* program, const std::string* instance)
+{
+    osg::ref_ptr<SurfaceVariant>& variant = _variants[passes][key];
     if (!variant)
     {
         std::string kit = glslVersionLine(_languageVersion);
-        for (const Pass& pass : _passes)
-            kit += pass.group->className();
+        for (const std::uint16_t place : passes)
+            kit += place == NoPass ? "-" : _passes[place].group->className();
         bool made = false;
         variant = SurfaceVariantCache::instance().get(
             kit, key,
             [&]
             {
-                SurfaceSnippet snippet;
-                for (const Pass& pass : _passes)
-                    if (pass.isLight() ? !program : key.output != 0)
-                        snippet += pass.pass->makeSnippet(key);
+                const SurfaceSnippet snippet = makeSnippet(key, passes, program);
                 return program ? new SurfaceVariant(key, snippet, *program)
                                : new SurfaceVariant(key, snippet, instance ? *instance : "",
                                                     _languageVersion);
@@ -98,7 +113,7 @@ SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
     {
         SurfaceKey key;
         key.program = contentOf(program);
-        found->second = variantOf(key, &program, nullptr);
+        found->second = variantOf(key, {NoPass, NoPass}, &program, nullptr);
     }
     return found->second;
 }
@@ -144,11 +159,12 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
     return surface;
 }
 
-void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ordered,
-                           SurfaceItem& item)
+void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderLeaf& leaf,
+                           bool ordered, SurfaceItem& item)
 {
     item.leaf = &leaf;
     item.state = surface.state;
+    item.passes = surface.passes;
     if (surface.beyond)
     {
         ++surface.beyond->second;
@@ -156,21 +172,63 @@ void SurfaceFrame::resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ord
     }
     SurfaceKey& key = surface.key;
     const std::uint32_t kit = std::exchange(key.kit, 0), output = std::exchange(key.output, 0);
-    for (std::size_t i = 0; i < _passes.size(); ++i)
-    {
-        if (!(surface.passes & (1u << i)))
-            continue;
-        const Pass& pass = _passes[i];
-        const bool isLit = key.lighting == LightingMode::Pixel || pass.pass->classifiesUnlit();
-        if (!pass.isLight() || (isLit && !key.program))
-            pass.pass->classify(*surface.state, leaf, ordered, key,
-                                item.numbers[std::size_t(pass.pass->getRole())]);
-    }
+    classify(surface, leaf, ordered, key, item);
     if (key.kit != kit || key.output != output)
         surface.variant = nullptr;
     if (!surface.variant)
-        surface.variant = variantOf(key, surface.program, surface.instance);
+        surface.variant = variantOf(key, surface.passes, surface.program, surface.instance);
     item.variant = surface.variant;
+    if (!key.output || links(state, *item.variant, surface.passes))
+        return;
+    // Better the look alone than neither.
+    _failedOutputs.insert(item.variant);
+    key.output = 0;
+    surface.variant = variantOf(key, surface.passes, surface.program, surface.instance);
+    item.variant = surface.variant;
+}
+
+void SurfaceFrame::classify(const Surface& surface, const osgUtil::RenderLeaf& leaf, bool ordered,
+                            SurfaceKey& key, SurfaceItem& item)
+{
+    for (const std::uint16_t place : surface.passes)
+    {
+        if (place == NoPass)
+            continue;
+        const Pass& pass = _passes[place];
+        const bool isLit = key.lighting == LightingMode::Pixel || pass.pass->classifiesUnlit();
+        if (pass.role() != LightRole || (isLit && !key.program))
+            pass.pass->classify(*surface.state, leaf, ordered, key, item.numbers[pass.role()]);
+    }
+}
+
+/// False for a program that is known not to link, and for a model's own that turns out not to.
+bool SurfaceFrame::links(osg::State& state, SurfaceVariant& variant, const SurfacePasses& passes)
+{
+    if (variant.failed || !variant.getProgram())
+        return false;
+    auto& program = const_cast<osg::Program&>(*variant.getProgram());
+    // Which one of those with defines it will be only its draw knows.
+    if (!variant.getKey().program || !program.getShaderDefines().empty())
+        return true;
+    const osg::Program::PerContextProgram* linked = program.getPCP(state);
+    if (linked && linked->needsLink())
+    {
+        const osg::Timer_t start = osg::Timer::instance()->tick();
+        program.compileGLObjects(state);
+        variant.compileMilliseconds =
+            osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+    }
+    if (linked && linked->isLinked())
+        return true;
+    if (!variant.failed.exchange(true))
+    {
+        const SurfaceGroup& group = *_passes[passes[OutputRole]].group;
+        OSG_WARN << group.libraryName() << "::" << group.className() << ": program '"
+                 << program.getName() << "' does not compile or link together with what "
+                 << group.className() << " adds, its surfaces are drawn without that:\n"
+                 << errorsOf(program, state) << std::flush;
+    }
+    return false;
 }
 
 void SurfaceFrame::prepare(osg::RenderInfo& renderInfo)
@@ -235,11 +293,7 @@ void SurfaceFrame::classifyAll(osg::RenderInfo& renderInfo)
                 _lights[light.getLightNum()] = &light;
         });
     for (const Pass& pass : _passes)
-    {
         pass.pass->begin(renderInfo, *this);
-        if (pass.pass->getRole() == SurfaceRole::Output)
-            _outputPass = pass.pass.get();
-    }
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
     {
         Surface* surface = nullptr;
@@ -252,7 +306,7 @@ void SurfaceFrame::classifyAll(osg::RenderInfo& renderInfo)
                 graph = leaf._parent;
                 surface = &surfaceOf(renderInfo, graph);
             }
-            resolve(*surface, leaf, _isOrdered[bin], _items[bin][i]);
+            resolve(*renderInfo.getState(), *surface, leaf, _isOrdered[bin], _items[bin][i]);
         }
     }
     for (const Pass& pass : _passes)
@@ -292,8 +346,9 @@ void SurfaceFrame::sortItems()
         for (SurfaceItem& item : _items[bin])
         {
             item.order = orderOf.emplace(item.variant, std::uint32_t(orderOf.size())).first->second;
-            item.diverted =
-                _outputPass && item.variant && !item.variant->failed && _outputPass->diverts(item);
+            const std::uint16_t output = item.passes[OutputRole];
+            item.diverted = output != NoPass && item.variant && !item.variant->failed &&
+                            _passes[output].pass->diverts(item);
             _diverted[bin] += item.diverted;
         }
         if (!std::is_sorted(_items[bin].begin(), _items[bin].end(), byOrder))
@@ -308,16 +363,26 @@ void SurfaceFrame::proxyDrawn(osg::RenderInfo& renderInfo)
             pass.pass->drawn(renderInfo);
 }
 
+void SurfaceFrame::drawNothing(osg::RenderInfo& renderInfo)
+{
+    writePlan(renderInfo);
+    for (const Pass& pass : _passes)
+        pass.pass->drawn(renderInfo);
+}
+
 void SurfaceFrame::forEachLeaf(
     const SurfacePass& pass,
     const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const
 {
-    const auto found = std::find_if(_passes.begin(), _passes.end(),
-                                    [&](const Pass& p) { return p.pass.get() == &pass; });
-    const unsigned int bit = 1u << (found - _passes.begin());
+    const auto role = static_cast<std::size_t>(pass.getRole());
+    const auto isIn = [&](const osgUtil::RenderLeaf& leaf)
+    {
+        const std::uint16_t place = passesOf(leaf._parent)[role];
+        return place != NoPass && _passes[place].pass.get() == &pass;
+    };
     for (std::size_t bin = 0; bin < _bins.size(); ++bin)
         for (const osgUtil::RenderLeaf* leaf : _bins[bin])
-            if (passesOf(leaf->_parent) & bit)
+            if (isIn(*leaf))
                 f(*leaf, _isOrdered[bin]);
 }
 
@@ -331,10 +396,16 @@ void SurfaceFrame::forEachItem(const std::function<void(const SurfaceItem&)>& f)
 void SurfaceFrame::drawBin(osg::RenderInfo& renderInfo, std::size_t bin)
 {
     prepare(renderInfo);
+    const SurfaceItem* items = _items[bin].data();
     const std::size_t diverted = _diverted[bin];
-    if (diverted)
-        _outputPass->divert(renderInfo, [&] { draw(renderInfo, _items[bin].data(), diverted); });
-    draw(renderInfo, _items[bin].data() + diverted, _items[bin].size() - diverted);
+    for (std::size_t i = 0, end = 0; i < diverted; i = end)
+    {
+        const std::uint16_t output = items[i].passes[OutputRole];
+        for (end = i + 1; end < diverted && items[end].passes[OutputRole] == output;)
+            ++end;
+        _passes[output].pass->divert(renderInfo, [&] { draw(renderInfo, items + i, end - i); });
+    }
+    draw(renderInfo, items + diverted, _items[bin].size() - diverted);
 }
 
 void SurfaceFrame::drawLeaf(osg::RenderInfo& renderInfo, std::size_t bin, std::size_t leaf)
