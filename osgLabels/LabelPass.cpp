@@ -114,18 +114,41 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
 {
     takeQuestions(visitor);
     if (_resources && _resources->collector)
+        findObjects(visitor, group, scope);
+}
+
+void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+                            const osg::StateSet* scope)
+{
+    if (!_ticket)
+        _ticket = _resources->shared->frames.begin();
+    std::vector<std::pair<const osgUtil::RenderLeaf*, std::uint32_t>> objects;
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
         forEachLeaf(*visitor.getCurrentRenderBin()->getStage(), scope,
                     [&](const osgUtil::RenderLeaf& leaf)
                     {
-                        const std::uint32_t object = objectOf(leaf, view);
-                        if (object)
-                            _objects.emplace(&leaf, object);
+                        const osg::Drawable& drawable = *leaf._drawable;
+                        if (auto* run = dynamic_cast<const PrimitiveRun*>(&drawable))
+                            addNumber(leaf, _resources->batches.recordBaseOf(*run));
+                        else if (isChunk(drawable))
+                            addNumber(leaf, _resources->objects.indexOf(1));
+                        else if (!isPoints(drawable))
+                            objects.emplace_back(
+                                &leaf,
+                                view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview)
+                                                                    : osg::Matrixd()));
                     });
     }
-    if (_resources)
-        _resources->fitNew();
+    _resources->fitNew();
+    for (const auto& [leaf, object] : objects)
+        addNumber(*leaf, object ? _resources->objects.indexOf(object) : 0);
+}
+
+void LabelPass::addNumber(const osgUtil::RenderLeaf& leaf, std::uint32_t number)
+{
+    if (number)
+        _objects.emplace(&leaf, number);
 }
 
 /// Mirrors and other pictures in the view are drawn by cameras of their own.
@@ -144,20 +167,6 @@ void LabelPass::answer()
         if (_asked[i].question)
             _picks->of[i].answer({_asked[i].identifier, _resources});
     _asked = {};
-}
-
-std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
-{
-    const osg::Drawable& drawable = *leaf._drawable;
-    if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
-        return _resources->batches.recordBaseOf(static_cast<const PrimitiveRun&>(drawable))
-                   ? SaysItself
-                   : 0;
-    if (isChunk(drawable)) // likewise
-        return SaysItself;
-    if (isPoints(drawable))
-        return 0;
-    return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
 void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
@@ -354,14 +363,14 @@ void LabelPass::setViewport(const osg::GLExtensions& gl,
                    2.0f / float(std::max(1, v[2])), 2.0f / float(std::max(1, v[3])));
 }
 
-LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const
+LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number)
 {
-    if (number != SaysItself)
-        return {GLint(_resources->objects.indexOf(number)), 0};
     // The drawable sets the attribute, or has an array of it.
-    if (auto* run = dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
-        return {0, _resources->batches.recordBaseOf(*run).value_or(0)};
-    return {0, GLint(_resources->objects.indexOf(0))};
+    if (dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
+        return {0, GLint(number)};
+    if (isChunk(*leaf._drawable))
+        return {0, GLint(number) - 1};
+    return {GLint(number), 0};
 }
 
 bool LabelPass::diverts(const SurfaceItem& item) const

@@ -62,9 +62,6 @@ public:
     void fillPlan(osgMultiRender::Plan& plan) const override;
 
 private:
-    /// The number of a leaf whose drawable has the indices of its objects.
-    static constexpr std::uint32_t SaysItself = ~0u;
-
     /// osgLabels_Frame of locate.glsl, and one float more to fill seven texels.
     using Frame = std::array<float, 28>;
     /// Of an object's record: what the vertex attribute has, and what is added.
@@ -87,7 +84,7 @@ private:
                          osgMultiRender::SurfaceSnippet& snippet);
     void addLabel(const osgMultiRender::SurfaceKey& key,
                   osgMultiRender::SurfaceSnippet& snippet) const;
-    Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const;
+    static Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
     /// Of the leaf's frame among those of this view; negative where rays are parallel.
     int numberOf(const osgUtil::RenderLeaf& leaf);
@@ -96,7 +93,9 @@ private:
     void setViewport(const osg::GLExtensions& gl, const osg::Program::PerContextProgram& program,
                      const osg::Viewport* viewport) const;
     void clear(osg::State& state) const;
-    std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
+    void findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+                     const osg::StateSet* scope);
+    void addNumber(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
     void takeQuestions(osgUtil::CullVisitor& visitor);
     void answer();
     void readPicked(osg::State& state);
@@ -114,7 +113,9 @@ private:
     GLint _viewport[4] = {};
     osgMultiRender::DrawTarget _target;
     osg::Vec3d _up; ///< Of the world, in eye coordinates.
-    /// Labelled objects in view: their numbers.
+    FramesInFlight::Ticket _ticket;
+    /// Labelled leaves in view: the index of their record; of a batch's run what is added to that
+    /// of an object in its page; of a chunk that of the first object.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;

@@ -12,14 +12,6 @@
 namespace osgLabels
 {
 
-namespace
-{
-
-/// Drawables that are looked at in each frame, whether they are still where they were.
-constexpr std::size_t sweptPerFrame = 256;
-
-} // namespace
-
 LabelScene::LabelScene()
 {
     // So that parents lead event visitors here; not for children, which have their own.
@@ -97,8 +89,8 @@ void LabelScene::collect()
     std::lock_guard<std::mutex> lock(_mutex);
     if (!_resources)
         _resources = std::make_shared<LabelResources>(_settings, *this);
-    else if (_resources->collector)
-        _resources->collector->sweep(*this, sweptPerFrame);
+    else
+        _resources->sweep(*this);
 }
 
 void LabelScene::traverse(osg::NodeVisitor& visitor)
