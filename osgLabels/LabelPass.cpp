@@ -25,8 +25,7 @@ namespace
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
-/// The object index' vertex attribute: free beside those of the fixed function on all drivers.
-constexpr unsigned int indexAttribute = 6;
+constexpr unsigned int indexAttribute = ChunkMesh::ObjectAttribute;
 
 bool isParallel(const osg::Matrixd& projection)
 {
@@ -49,45 +48,6 @@ osg::Vec3d axisOf(LabelUp up)
     return {};
 }
 
-/// Whether the StateSet is on the path to the graph.
-bool isBelow(const osgUtil::StateGraph* graph, const osg::StateSet& scope)
-{
-    while (graph && graph->getStateSet() != &scope)
-        graph = graph->_parent;
-    return graph;
-}
-
-/// Of the scope, or of all where it is null.
-void forEachLeaf(osgUtil::RenderBin& bin, const osg::StateSet* scope,
-                 const std::function<void(const osgUtil::RenderLeaf&)>& f)
-{
-    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
-        if (!scope || isBelow(graph, *scope))
-            for (const auto& leaf : graph->_leaves)
-                f(*leaf);
-    for (const auto& [number, inner] : bin.getRenderBinList())
-        forEachLeaf(*inner, scope, f);
-}
-
-/// Its vertices say which objects they are of.
-bool isChunk(const osg::Drawable& drawable)
-{
-    const osg::Geometry* geometry = drawable.asGeometry();
-    const osg::Array* objects = geometry ? geometry->getVertexAttribArray(indexAttribute) : nullptr;
-    return objects && objects->getName() == ChunkMesh::ObjectsName;
-}
-
-/// Points have no surface to write on.
-bool isPoints(const osg::Drawable& drawable)
-{
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry || geometry->getNumPrimitiveSets() == 0)
-        return false;
-    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::all_of(sets.begin(), sets.end(),
-                       [](const auto& primitives) { return primitives->getMode() == GL_POINTS; });
-}
-
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 {
     return osg::Matrixd::transform3x3(v, m);
@@ -107,66 +67,6 @@ LabelPass::~LabelPass()
             _picks->of[i].giveBack(*_asked[i].question);
     if (_targets)
         _resources->targets.release(_contextID, _targets);
-}
-
-void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
-                     const osg::StateSet* scope)
-{
-    takeQuestions(visitor);
-    if (_resources && _resources->collector)
-        findObjects(visitor, group, scope);
-}
-
-void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
-                            const osg::StateSet* scope)
-{
-    if (!_ticket)
-        _ticket = _resources->shared->frames.begin();
-    std::vector<std::pair<const osgUtil::RenderLeaf*, std::uint32_t>> objects;
-    {
-        LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
-        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(), scope,
-                    [&](const osgUtil::RenderLeaf& leaf)
-                    {
-                        const osg::Drawable& drawable = *leaf._drawable;
-                        if (auto* run = dynamic_cast<const PrimitiveRun*>(&drawable))
-                            addNumber(leaf, _resources->batches.recordBaseOf(*run));
-                        else if (isChunk(drawable))
-                            addNumber(leaf, _resources->objects.indexOf(1));
-                        else if (!isPoints(drawable))
-                            objects.emplace_back(
-                                &leaf,
-                                view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview)
-                                                                    : osg::Matrixd()));
-                    });
-    }
-    _resources->fitNew();
-    for (const auto& [leaf, object] : objects)
-        addNumber(*leaf, object ? _resources->objects.indexOf(object) : 0);
-}
-
-void LabelPass::addNumber(const osgUtil::RenderLeaf& leaf, std::uint32_t number)
-{
-    if (number)
-        _objects.emplace(&leaf, number);
-}
-
-/// Mirrors and other pictures in the view are drawn by cameras of their own.
-void LabelPass::takeQuestions(osgUtil::CullVisitor& visitor)
-{
-    const osg::Camera* camera = visitor.getCurrentRenderBin()->getStage()->getCamera();
-    const osgUtil::RenderStage* view = visitor.getRenderStage();
-    for (std::size_t i = 0; i < _asked.size(); ++i)
-        if (!_asked[i].question)
-            _asked[i].question = _picks->of[i].take(camera, !view || view->getCamera() == camera);
-}
-
-void LabelPass::answer()
-{
-    for (std::size_t i = 0; i < _asked.size(); ++i)
-        if (_asked[i].question)
-            _picks->of[i].answer({_asked[i].identifier, _resources});
-    _asked = {};
 }
 
 void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
@@ -238,7 +138,7 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
     }
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool hasOther =
-        geometry && geometry->getVertexAttribArray(indexAttribute) && !isChunk(*geometry);
+        geometry && geometry->getVertexAttribArray(indexAttribute) && !ChunkMesh::isOne(*geometry);
     const bool isOneObject =
         key.instance && !dynamic_cast<const PrimitiveRun*>(leaf._drawable.get());
     if ((key.output & Labelled) && (key.program || hasOther || isOneObject))
@@ -368,7 +268,7 @@ LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32
     // The drawable sets the attribute, or has an array of it.
     if (dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
         return {0, GLint(number)};
-    if (isChunk(*leaf._drawable))
+    if (ChunkMesh::isOne(*leaf._drawable))
         return {0, GLint(number) - 1};
     return {GLint(number), 0};
 }
