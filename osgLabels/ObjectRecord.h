@@ -48,7 +48,7 @@ struct ObjectRecord
     glm::vec3 size{0.0f};                       ///< See Shape; in units of the local coordinates.
     std::uint32_t identifier = 0;               ///< Of the label; 0 for none.
 
-    static constexpr std::size_t Words = 12;
+    static constexpr std::size_t Words = 12, IdentifierWord = 11;
 
     std::array<std::uint32_t, Words> pack() const
     {
@@ -58,7 +58,7 @@ struct ObjectRecord
         std::memcpy(words.data(), first, sizeof first);
         words[7] = shape;
         std::memcpy(words.data() + 8, &size[0], 3 * sizeof(float));
-        words[11] = identifier;
+        words[IdentifierWord] = identifier;
         return words;
     }
 };

@@ -394,11 +394,8 @@ TEST(PrimitiveBatchTest, deepCopiesChangeAlone)
     const osg::ref_ptr<PrimitiveBatch> deep =
         static_cast<PrimitiveBatch*>(batch->clone(osg::CopyOp::DEEP_COPY_ALL));
     deep->setColor(3, {1, 2, 3, 255});
-    deep->setIdentifier(3, 77);
     EXPECT_EQ(deep->getPrimitive(3).color, osg::Vec4ub(1, 2, 3, 255));
-    EXPECT_EQ(deep->getIdentifier(3), 77u);
     EXPECT_NE(batch->getPrimitive(3).color, osg::Vec4ub(1, 2, 3, 255));
-    EXPECT_EQ(batch->getIdentifier(3), 0u);
 }
 
 TEST(PrimitiveBatchTest, polygonsStayWithinHalfAPixelOfTheirCircle)
