@@ -3,6 +3,7 @@
 #include "LabelPictures.h"
 
 #include <osgLabels/BufferTexture.h>
+#include <osgLabels/LabelBuffers.h>
 
 #include <support/NotifyCapture.h>
 
@@ -103,6 +104,22 @@ TEST_F(LabelState, pagesAreUploadedWhateverTheUnpackStateIs)
     EXPECT_NO_GL_ERRORS();
     state.haveAppliedTextureAttribute(0, texture);
     texture->releaseGLObjects(&state);
+}
+
+TEST_F(LabelState, whatAFrameDrawsWithOutlivesARelease)
+{
+    osg::GraphicsContext& context = *viewer().getViewer().getCamera()->getGraphicsContext();
+    context.makeCurrent();
+    const auto table = std::make_shared<osgLabels::LabelTable>();
+    table->setCodes(1, {1, 2, 3});
+    osgLabels::LabelBuffers buffers(table);
+    const auto stateSet = buffers.update(*context.getState());
+    buffers.releaseGLObjects(nullptr); // as another thread may do between
+    EXPECT_EQ(stateSet->referenceCount(), 1);
+    EXPECT_TRUE(stateSet->getUniform("osgLabels_layout"));
+    EXPECT_TRUE(buffers.update(*context.getState())->getUniform("osgLabels_layout"));
+    buffers.releaseGLObjects(context.getState());
+    EXPECT_NO_GL_ERRORS();
 }
 
 TEST_F(LabelState, glyphsAreUploadedWhateverTheUnpackStateIs)
