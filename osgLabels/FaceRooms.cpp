@@ -85,24 +85,24 @@ private:
 
     const Cell& at(int x, int y) const { return _cells[std::size_t(y * Side + x)]; }
 
+    /// Whether the surface goes on from the cell to all that touch it, so that its corners are
+    /// covered, too.
     bool isGood(int x, int y) const
     {
-        return at(x, y).isOwn && (x + 1 == Side || continues(at(x, y), at(x + 1, y), 0)) &&
-               (y + 1 == Side || continues(at(x, y), at(x, y + 1), 1)) &&
-               (x == 0 || continues(at(x, y), at(x - 1, y), 0)) &&
-               (y == 0 || continues(at(x, y), at(x, y - 1), 1));
+        for (int j = std::max(0, y - 1); j <= std::min(Side - 1, y + 1); ++j)
+            for (int i = std::max(0, x - 1); i <= std::min(Side - 1, x + 1); ++i)
+                if (!at(i, j).isOwn || !continues(at(x, y), at(i, j), glm::dvec2(i - x, j - y)))
+                    return false;
+        return true;
     }
 
-    /// Whether the surface goes on from a cell to its neighbour along an axis.
-    bool continues(const Cell& a, const Cell& b, int axis) const
+    bool continues(const Cell& from, const Cell& to, const glm::dvec2& cells) const
     {
-        // Whether there is one is the neighbour's own matter.
-        if (!std::isfinite(a.out) || !std::isfinite(b.out))
-            return true;
-        const double step = std::abs(a.out - b.out) * _size.z;
+        const double step = std::abs(to.out - from.out) * _size.z;
+        const double way = glm::length(cells * glm::dvec2(_size)) / Half;
         // Whichever way facets are wound.
-        return std::abs(glm::dot(a.normal, b.normal)) > FoldCosine &&
-               step <= StepSlope * _size[axis] / Half + 1e-3 * _size.z;
+        return std::abs(glm::dot(from.normal, to.normal)) > FoldCosine &&
+               step <= StepSlope * way + 1e-3 * _size.z;
     }
 
     const glm::dvec3 _size;

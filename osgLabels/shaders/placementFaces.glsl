@@ -127,7 +127,10 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
                               float share, float width)
 {
     osgLabels_Line line;
-    side *= share;
+    // What is long keeps its length: what is amiss there is so across it, as with profiles.
+    bool isLongA = side.x > osgLabels_Long * side.y;
+    bool isLongB = side.y > osgLabels_Long * side.x;
+    side *= vec2(isLongA && share > 0.0f ? 1.0f : share, isLongB && share > 0.0f ? 1.0f : share);
     float emA = osgLabels_em(view, 2.0f * side.x, 2.0f * side.y, width);
     float emB = osgLabels_em(view, 2.0f * side.y, 2.0f * side.x, width);
     // Along the long side; but horizontal text may be smaller by a third, unless it would stand
@@ -137,7 +140,7 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
     float levelB = abs(dot(level, b));
     float sum = max(levelA + levelB, osgLabels_Tiny);
     bool alongA = 1.002f * emA * (1.0f + 0.5f * levelA / sum) > emB * (1.0f + 0.5f * levelB / sum);
-    alongA = side.x > osgLabels_Long * side.y || (alongA && side.y <= osgLabels_Long * side.x);
+    alongA = isLongA || (alongA && !isLongB);
     line.along = alongA ? a : b;
     line.across = alongA ? b : a;
     line.em = alongA ? emA : emB;
@@ -148,7 +151,7 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
     line.at = vec2(osgLabels_fromMiddle(dot(view.base, line.along), dot(p, line.along), count,
                                         osgLabels_period(room, count)),
                    dot(p + view.base - middle, line.across));
-    line.beyond = share < 1.0f ? abs(dot(p + view.base, line.along)) - 0.5f * room : 0.0f;
+    line.beyond = share < 1.0f && !(alongA ? isLongA : isLongB) ? abs(dot(p + view.base, line.along)) - 0.5f * room : 0.0f;
     line.axis = vec3(0.0f);
     line.bend = vec2(0.0f);
     return line;

@@ -30,6 +30,21 @@ std::vector<unsigned int> sortedRooms(const FittedShape& shape)
 
 using Rooms = std::vector<unsigned int>;
 
+/// With ends, of a profile that is seen whole from its first corner.
+ShapeMesh closed(const std::vector<glm::dvec2>& profile, double half)
+{
+    ShapeMesh mesh = shapemesh::extrusion(profile, half);
+    for (const double z : {-half, half})
+    {
+        const auto first = std::uint32_t(mesh.points.size());
+        for (const glm::dvec2& p : profile)
+            mesh.points.push_back({p, z});
+        for (std::uint32_t i = 2; i < profile.size(); ++i)
+            mesh.indices.insert(mesh.indices.end(), {first, first + i - 1, first + i});
+    }
+    return mesh;
+}
+
 std::vector<glm::dvec2> circle(int sides, double radius)
 {
     std::vector<glm::dvec2> points;
@@ -50,26 +65,27 @@ TEST(FaceRoomsTest, boxesHaveAllOfTheirFaces)
 TEST(FaceRoomsTest, aRoofHasTextOnItsGablesAloneAndWithinTheTriangle)
 {
     // Two slopes of 42 degrees, which meet in a ridge, over a floor.
-    const FittedShape roof =
-        fitOf(shapemesh::extrusion({{-0.55, 0.0}, {0.55, 0.0}, {0.0, 0.5}}, 0.68));
+    const FittedShape roof = fitOf(closed({{-0.55, 0.0}, {0.55, 0.0}, {0.0, 0.5}}, 0.68));
     ASSERT_EQ(roof.shape, Shape::Extrusion);
-    // The middle third of a triangle's box lies within the triangle. The slopes face both other
-    // ways for a part, or fold.
-    EXPECT_EQ(sortedRooms(roof), Rooms({0, 0, 5}));
-    EXPECT_EQ(roof.rooms.z, 5u);
+    // The middle third of a triangle's box lies within the triangle, less what the grid is coarse.
+    // The slopes face both other ways for a part, or fold.
+    EXPECT_EQ(sortedRooms(roof), Rooms({0, 0, 4}));
+    EXPECT_EQ(roof.rooms.z, 4u);
     // So much is kept off by the record.
-    EXPECT_EQ(roof.record(1).shape >> RoomShift, 15u | 15u << 4 | 10u << 8);
+    EXPECT_EQ(roof.record(1).shape >> RoomShift, 15u | 15u << 4 | 11u << 8);
 }
 
 TEST(FaceRoomsTest, stepsAndHolesAreKeptOff)
 {
-    // An L: the middle of its inner sides is a step, its ends are not there in the middle.
-    const FittedShape corner = fitOf(shapemesh::extrusion(
-        {{-1, -1}, {1, -1}, {1, -0.9}, {-0.9, -0.9}, {-0.9, 1}, {-1, 1}}, 2.0));
+    // An L: its inner sides end at the other leg, its ends are not there in the middle.
+    const FittedShape corner =
+        fitOf(closed({{-1, -1}, {1, -1}, {1, -0.9}, {-0.9, -0.9}, {-0.9, 1}, {-1, 1}}, 2.0));
     ASSERT_EQ(corner.shape, Shape::Extrusion);
     EXPECT_EQ(corner.rooms.z, 0u);
+    EXPECT_EQ(corner.rooms.x, 12u) << "a twentieth of the side, on both sides of the middle";
+    EXPECT_EQ(corner.rooms.y, 12u);
     // A prism of eight sides has flat ones to the left and right, and above and below.
-    const FittedShape nut = fitOf(shapemesh::extrusion(
+    const FittedShape nut = fitOf(closed(
         {{1, -0.4}, {1, 0.4}, {0.4, 1}, {-0.4, 1}, {-1, 0.4}, {-1, -0.4}, {-0.4, -1}, {0.4, -1}},
         0.5));
     if (nut.shape == Shape::Extrusion)
