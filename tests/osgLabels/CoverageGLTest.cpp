@@ -175,19 +175,26 @@ TEST(CoverageGLTest, anEighthOfAPixelChangesCoverageAsItShould)
     support::HeadlessViewer viewer;
     OSGKITS_NEED_GL(viewer);
     const Page page;
-    for (const double em : {4.0, 8.0, 19.0, 32.0, 64.0})
-        for (const glm::dvec2& step : {glm::dvec2(0.125, 0.0), glm::dvec2(0.0, 0.125)})
-        {
-            CoverageView before = makeView(27.0, 1.0, em), after = before;
-            after.shift = step;
-            const auto a = viewer.renderFloat(page.page.makeNode(before, *page.atlas), {}, Size,
-                                              Size),
-                       b = viewer.renderFloat(page.page.makeNode(after, *page.atlas), {}, Size,
-                                              Size);
-            const double own = getRmsPercent(*page.page.makeTruth(before, Size),
-                                             *page.page.makeTruth(after, Size));
-            EXPECT_LE(getRmsPercent(*a, *b), own + 2.0) << em;
-        }
+    page.atlas->setLegibleSize(0.0f);
+    constexpr int Small = 64;
+    for (const double degrees : {0.0, 27.0})
+        for (const double squash : {1.0, 4.0})
+            for (const double em : {2.0, 4.0, 8.0, 13.0, 23.98, 32.0, 46.0, 90.0, 200.0})
+            {
+                // By an eighth both ways; and closer by an eighth of a pixel at the page's edge.
+                CoverageView before = makeView(degrees, squash, em), after = before;
+                after.shift = {0.125, 0.125};
+                after.pixelsPerEm *= 1.0 + 0.125 / Small;
+                const auto a = viewer.renderFloat(page.page.makeNode(before, *page.atlas), {},
+                                                  Small, Small),
+                           b = viewer.renderFloat(page.page.makeNode(after, *page.atlas), {}, Small,
+                                                  Small);
+                const double own = getRmsPercent(*page.page.makeTruth(before, Small),
+                                                 *page.page.makeTruth(after, Small));
+                EXPECT_LE(getRmsPercent(*a, *b), own + 2.0)
+                    << em << " pixels an em, squashed by " << squash << ", " << degrees
+                    << " degrees";
+            }
 }
 
 TEST(CoverageGLTest, noSeamIsSeenWhereMethodsChange)
@@ -195,18 +202,31 @@ TEST(CoverageGLTest, noSeamIsSeenWhereMethodsChange)
     support::HeadlessViewer viewer;
     OSGKITS_NEED_GL(viewer);
     const Page page;
-    for (const double em : {20.0, 44.0})
+    const auto render = [&](double em, double squash)
     {
-        const CoverageView below = makeView(27.0, 1.0, em * 0.9999),
-                           above = makeView(27.0, 1.0, em * 1.0001);
-        const auto a = viewer.renderFloat(page.page.makeNode(below, *page.atlas), {}, Size, Size),
-                   b = viewer.renderFloat(page.page.makeNode(above, *page.atlas), {}, Size, Size);
-        EXPECT_LE(getRmsPercent(*a, *b), 1.5) << em;
+        return viewer.renderFloat(page.page.makeNode(makeView(27.0, squash, em), *page.atlas), {},
+                                  Size, Size);
+    };
+    // Squares to distances, four look-ups coming together, one look-up to four, four to slices.
+    const double quartered = 1.1522, sliced = 1.6546;
+    for (const auto& [em, squash] :
+         {std::make_pair(24.0, 1.0), std::make_pair(40.0, 1.0), std::make_pair(48.0, 1.0),
+          std::make_pair(24.0, 4.0), std::make_pair(64.0, quartered), std::make_pair(64.0, sliced)})
+    {
+        // The text itself moves by this zoom: 0.02 to 0.1 pixels.
+        constexpr double Zoom = 0.0002;
+        const auto below = render(em * (1.0 - Zoom), squash), at = render(em, squash),
+                   above = render(em * (1.0 + Zoom), squash * (1.0 + Zoom)),
+                   farther = render(em * (1.0 - 2.0 * Zoom), squash * (1.0 - Zoom));
+        const double step = getRmsPercent(*at, *above), usual = getRmsPercent(*farther, *below);
+        EXPECT_LE(std::sqrt(std::max(0.0, step * step - usual * usual)), 1.0)
+            << em << " pixels an em, squashed by " << squash;
         double tone = 0.0;
         for (int y = 0; y < Size; ++y)
             for (int x = 0; x < Size; ++x)
-                tone += getPixel(*a, x, y) - getPixel(*b, x, y);
-        EXPECT_LE(std::abs(tone) / (Size * Size), 0.5 / 255.0) << em;
+                tone += getPixel(*below, x, y) - getPixel(*above, x, y);
+        EXPECT_LE(std::abs(tone) / (Size * Size), 0.5 / 255.0)
+            << em << " pixels an em, squashed by " << squash;
     }
 }
 

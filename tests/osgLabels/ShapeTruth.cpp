@@ -212,6 +212,7 @@ ShapeTruth::Eye ShapeTruth::getEye(const ShapeView& view) const
     eye.eye = target - eye.forward * (_em / (view.pixelsPerEm * eye.perPixel));
     eye.up = turn(upright, eye.forward, view.roll);
     eye.right = glm::cross(eye.forward, eye.up);
+    eye.eye += _em / view.pixelsPerEm * (view.shift.x * eye.right + view.shift.y * eye.up);
     return eye;
 }
 

@@ -21,6 +21,7 @@ struct ShapeView
     double roll = 0.0;         ///< Degrees about the line of sight.
     double tilt = 0.0;         ///< Degrees from the surface's normal, about the text's upright.
     double pixelsPerEm = 16.0; ///< At the text's middle, across the tilt.
+    glm::dvec2 shift{0.0};     ///< Of the camera, in pixels at the text's middle.
     int size = 96;             ///< Of the picture, in pixels a side.
 };
 
