@@ -191,7 +191,7 @@ TEST(CoverageGLTest, anEighthOfAPixelChangesCoverageAsItShould)
                                                   Small);
                 const double own = getRmsPercent(*page.page.makeTruth(before, Small),
                                                  *page.page.makeTruth(after, Small));
-                EXPECT_LE(getRmsPercent(*a, *b), own + 2.0)
+                EXPECT_LE(getRmsPercent(*a, *b), own + 1.0)
                     << em << " pixels an em, squashed by " << squash << ", " << degrees
                     << " degrees";
             }
@@ -214,12 +214,13 @@ TEST(CoverageGLTest, noSeamIsSeenWhereMethodsChange)
           std::make_pair(24.0, 4.0), std::make_pair(64.0, quartered), std::make_pair(64.0, sliced)})
     {
         // The text itself moves by this zoom: 0.02 to 0.1 pixels.
-        constexpr double Zoom = 0.0002;
-        const auto below = render(em * (1.0 - Zoom), squash), at = render(em, squash),
-                   above = render(em * (1.0 + Zoom), squash * (1.0 + Zoom)),
-                   farther = render(em * (1.0 - 2.0 * Zoom), squash * (1.0 - Zoom));
-        const double step = getRmsPercent(*at, *above), usual = getRmsPercent(*farther, *below);
-        EXPECT_LE(std::sqrt(std::max(0.0, step * step - usual * usual)), 1.0)
+        constexpr double Zoom = 0.0001;
+        const auto at = [&](double steps)
+        { return render(em * (1.0 + steps * Zoom), squash * (1.0 + steps * Zoom)); };
+        const auto farther = at(-3.0), below = at(-1.0), above = at(1.0);
+        const double step = getRmsPercent(*below, *above), usual = getRmsPercent(*farther, *below);
+        // 0.66 was measured at 24 pixels an em, less than two of 255.
+        EXPECT_LE(std::sqrt(std::max(0.0, step * step - usual * usual)), 0.72)
             << em << " pixels an em, squashed by " << squash;
         double tone = 0.0;
         for (int y = 0; y < Size; ++y)
