@@ -15,18 +15,20 @@ namespace
 {
 
 // The constants of coverage.glsl.
-constexpr float LargeFrom = 20.0f, HugeFrom = 44.0f, MostLong = 12.0f, MostSlices = 32.0f;
+constexpr float LargeFrom = 24.0f, HugeFrom = 48.0f, Nearing = 8.0f, MostLong = 12.0f,
+                MostTurns = 16.0f;
 
-/// A footprint cut across its long axis.
+/// A footprint cut across its long axis: osgLabels_Slicing.
 class Slicing
 {
 public:
-    Slicing(const glm::vec2& a, const glm::vec2& b, const glm::vec2& twice, float axis, float ratio)
+    Slicing(const glm::vec2& a, const glm::vec2& b, const glm::vec2& twice, float axis, float area)
         : _a(a), _b(b)
     {
         const glm::vec2 direction = twice.x > 0.0f ? glm::vec2(axis + twice.x, twice.y)
                                                    : glm::vec2(twice.y, axis - twice.x);
-        _run = {glm::dot(_a, direction), glm::dot(_b, direction)};
+        const float length = std::max(glm::length(direction), 1e-18f);
+        _run = glm::vec2(glm::dot(_a, direction), glm::dot(_b, direction)) / length;
         _a *= _run.x < 0.0f ? -1.0f : 1.0f;
         _b *= _run.y < 0.0f ? -1.0f : 1.0f;
         _run = glm::abs(_run);
@@ -35,27 +37,37 @@ public:
             std::swap(_a, _b);
             std::swap(_run.x, _run.y);
         }
-        const float slices =
-            std::min(ratio, MostLong) * (1.0f + 1.9f * _run.y / std::max(_run.x, 1e-25f));
-        _count = std::min(2.0f * std::ceil(0.5f * slices), MostSlices);
+        _inverse = 1.0f / glm::max(_run, 1e-18f);
+        _end = 0.5f * (_run.x + _run.y);
+        _shoulder = 0.5f * (_run.x - _run.y);
+        height = area * _inverse.x;
+        skew = _run.y * _inverse.x;
     }
 
-    float getCount() const { return _count; }
-
-    /// The slice's middle from that of the footprint, and its width.
-    glm::vec3 get(float i) const
+    glm::vec3 upTo(float share) const
     {
-        const glm::vec2 inverse = 1.0f / glm::max(_run, 1e-25f);
-        const float along = (i + 0.5f - 0.5f * _count) * (_run.x + _run.y) / _count;
-        const float low = glm::clamp((along - 0.5f * _run.x) * inverse.y, -0.5f, 0.5f);
-        const float high = glm::clamp((along + 0.5f * _run.x) * inverse.y, -0.5f, 0.5f);
-        const float t = 0.5f * (low + high), s = (along - t * _run.y) * inverse.x;
-        return {s * _a + t * _b, high - low};
+        const float rest = 1.0f - share;
+        const float end = _end * share * (1.0f + 0.9f * skew * rest * rest);
+        const float over = std::max(end - _shoulder, 0.0f);
+        const float fallen = over * std::min(over * _inverse.y, 1.0f);
+        return {end, end - 0.5f * fallen,
+                0.5f * end * end - fallen * (0.5f * _shoulder + over / 3.0f)};
     }
+
+    glm::vec3 getSquare(const glm::vec3& slice) const
+    {
+        const float along = slice.z / slice.y;
+        const float t = 0.5f * glm::clamp((along - _shoulder) * _inverse.y, 0.0f, 1.0f);
+        const float s = (along - t * _run.y) * _inverse.x;
+        const float side = std::max(height * (1.0f - 2.0f * t), 0.6f * slice.x);
+        return {s * _a + t * _b, side * side};
+    }
+
+    float height, skew;
 
 private:
-    glm::vec2 _a, _b, _run;
-    float _count = 1.0f;
+    glm::vec2 _a, _b, _run, _inverse;
+    float _end, _shoulder;
 };
 
 } // namespace
@@ -70,9 +82,8 @@ struct GlyphCoverage::Sampling
 {
     const ImageRectangle* rectangle;
     float margin;
-    glm::vec4 mixing;
     bool isDistance;
-    glm::vec2 gain;
+    float finer, turn;
     int which;
 };
 
@@ -150,7 +161,8 @@ glm::vec4 GlyphCoverage::read(std::size_t image, const glm::vec2& texel) const
 }
 
 float GlyphCoverage::getLetterInk(const std::vector<std::uint32_t>& codes, const Cell& cell,
-                                  glm::vec2 place, const Sampling& sampling) const
+                                  glm::vec2 place, const Sampling& sampling,
+                                  const glm::vec4& lookUp) const
 {
     if (cell.index < 0 || cell.index >= static_cast<int>(codes.size()))
         return 0.0f;
@@ -158,46 +170,46 @@ float GlyphCoverage::getLetterInk(const std::vector<std::uint32_t>& codes, const
     place = glm::clamp(place, glm::vec2(-sampling.margin),
                        glm::vec2(cell.width, 1.0f) + sampling.margin);
     glm::vec2 texel = place * sampling.rectangle->scale + sampling.rectangle->offset;
-    glm::vec4 mixing = sampling.mixing;
+    glm::vec2 mixing(lookUp);
     if (sampling.isDistance)
     {
         const ImageRectangle& whole = _images.getDistance();
         const glm::vec2 step(_images.getQuarterStep());
         const glm::vec2 end = step + glm::vec2(whole.x, whole.y) + 0.5f;
-        const int right = texel.x >= end.x, upper = texel.y >= end.y;
-        texel -= glm::vec2(right, upper) * step;
-        mixing = glm::vec4(0.0f);
-        mixing[right + 2 * upper] = 1.0f;
+        const glm::vec2 quarter(texel.x >= end.x, texel.y >= end.y);
+        texel -= quarter * step;
+        mixing += quarter;
     }
     const std::size_t image = codes[static_cast<std::size_t>(cell.index)] *
                                   static_cast<std::size_t>(_images.getImagesPerGlyph()) +
                               static_cast<std::size_t>(sampling.which);
-    const float value = glm::dot(read(image, texel), mixing);
-    return glm::clamp(value * sampling.gain.x + sampling.gain.y, 0.0f, 1.0f);
+    const glm::vec4 texels = read(image, texel);
+    const float value = glm::mix(glm::mix(texels.x, texels.y, mixing.x),
+                                 glm::mix(texels.z, texels.w, mixing.x), mixing.y);
+    return glm::clamp(value * lookUp.z + lookUp.w, 0.0f, 1.0f);
 }
 
-GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, const glm::vec2& doubled) const
+GlyphCoverage::Sampling GlyphCoverage::getSampling(float squared, float turn) const
 {
-    const float pixels = 1.0f / std::sqrt(squared);
-    const float level = glm::clamp(-std::log2(squared) - 2.0f, 0.0f, 6.999f);
-    const float finer = level - std::floor(level);
-    const float turn = doubled.y * doubled.y / std::max(glm::dot(doubled, doubled), 1e-36f);
-    const float gain = GlyphImages::DistanceSpread * pixels;
-    if (pixels > LargeFrom)
-        return {&_images.getDistance(),
-                _images.getDistanceMargin(),
-                {},
-                true,
-                {2.0f * gain, 0.5f - gain},
-                0};
-    const int coarse = static_cast<int>(level);
-    return {&_images.getLevels()[static_cast<std::size_t>(coarse)],
-            _images.getMargin(coarse),
-            glm::vec4(1.0f - turn, turn, 1.0f - turn, turn) *
-                glm::vec4(1.0f - finer, 1.0f - finer, finer, finer),
+    if (squared * LargeFrom * LargeFrom < 1.0f)
+        return {&_images.getDistance(), _images.getDistanceMargin(), true, 0.0f, 0.0f, 0};
+    const int level = std::clamp(-3 - std::ilogb(0.8f * squared), 0, GlyphImages::Levels - 1);
+    return {&_images.getLevels()[static_cast<std::size_t>(level)],
+            _images.getMargin(level),
             false,
-            {1.0f, 0.0f},
+            std::ldexp(1.0f, level + 3),
+            turn,
             0};
+}
+
+glm::vec4 GlyphCoverage::getLookUp(const Sampling& sampling, float squared)
+{
+    const float gain = GlyphImages::DistanceSpread / std::sqrt(squared);
+    if (sampling.isDistance)
+        return {0.0f, 0.0f, 2.0f * gain, 0.5f - gain};
+    const float part = squared * sampling.finer;
+    return {sampling.turn, glm::clamp((2.0f - part) * (4.0f - part) / 3.0f, -0.5f, 1.5f), 1.0f,
+            0.0f};
 }
 
 float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::vec2& place,
@@ -214,44 +226,46 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
 
     const glm::vec2 twice(0.5f * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     const float axis = glm::length(twice);
-    const float longest = 0.5f * squares + axis;
-    const bool isLong = squares > 2.65f * area;
-    const bool isLarge = area * LargeFrom * LargeFrom < 1.0f,
-               isHuge = area * HugeFrom * HugeFrom < 1.0f;
-    const bool isQuartered = !isLong && (squares > 2.05f * area || (isLarge && !isHuge));
-    const float ratio = isLong ? longest / area : 1.0f;
-    const float thinner = isLong ? std::sqrt(ratio / (2.0f * std::ceil(0.5f * ratio))) : 1.0f;
-    const float least = longest / (MostLong * MostLong);
-    const float squared = isLong        ? std::max(area / ratio * thinner, least)
-                          : isQuartered ? 0.25f * area
-                                        : area;
-    const Slicing slicing(a, b, twice, axis, ratio);
-    const float count = isLong ? slicing.getCount() : isQuartered ? 4.0f : 1.0f;
+    const bool isLong = squares > 2.26f * area;
+    const Slicing slicing(a, b, twice, axis, area);
+    const float ratio = std::min((0.5f * squares + axis) / area, MostLong);
+    const float slices = ratio + slicing.skew * (0.6f * ratio + 0.5f);
+
+    const float pixels = 1.0f / std::sqrt(area);
+    const float nearing = glm::clamp((HugeFrom - pixels) / Nearing, 0.0f, 1.0f);
+    const float spread = squares > 2.02f * area ? 1.0f : pixels < LargeFrom ? 0.0f : nearing;
+    const float quartered = area * (1.0f - 0.75f * spread * spread);
+    const bool isPair = !isLong && spread == 0.0f;
+
+    const float typical =
+        isLong ? slicing.height * slicing.height * (1.0f - 0.4f * slicing.skew) : quartered;
     const glm::vec2 doubled = isLong ? twice : glm::vec2(a.x * a.x - a.y * a.y, 2.0f * a.x * a.y);
-    Sampling sampling = getSampling(squared, doubled);
+    const float turn = doubled.y * doubled.y / std::max(glm::dot(doubled, doubled), 1e-36f);
+    Sampling sampling = getSampling(typical, turn);
     sampling.which = which;
 
+    const float turns = isLong   ? glm::clamp(std::ceil(0.5f * slices - 0.2f), 1.0f, MostTurns)
+                        : isPair ? 1.0f
+                                 : 2.0f;
     float ink = 0.0f, weight = 0.0f;
-    for (float i = 0.0f; i < count; i += 1.0f)
+    glm::vec3 before(0.0f);
+    for (float i = 0.0f; i < turns; i += 1.0f)
     {
-        const float row = std::floor(0.5f * i);
-        const glm::vec2 quarter((i - 2.0f * row) * 0.5f - 0.25f, row * 0.5f - 0.25f);
-        glm::vec3 slice(0.0f, 0.0f, 1.0f);
-        if (isLong)
-            slice = slicing.get(i);
-        else if (isQuartered)
-            slice = glm::vec3(footprint * quarter, 1.0f);
-        const glm::vec2 at = place + glm::vec2(slice);
+        const glm::vec2 off = spread * (0.25f * a + (i > 0.0f ? -0.25f : 0.25f) * b);
+        const glm::vec3 upTo = slicing.upTo((i + 1.0f) / turns), slice = upTo - before;
+        before = upTo;
+        const glm::vec3 square = isLong ? slicing.getSquare(slice) : glm::vec3(off, quartered);
+        const float part = isLong ? slice.y : 1.0f;
+        const glm::vec4 lookUp = getLookUp(sampling, square.z);
+        const glm::vec2 at = place + glm::vec2(square), opposite = place - glm::vec2(square);
         const Cell cell = getCell(codes, at.x);
-        ink += slice.z * getLetterInk(codes, cell, at, sampling);
-        if (count == 1.0f && !isLong)
-        {
-            const int step = at.x - cell.left < 0.5f * cell.width ? -1 : 1;
-            ink += getLetterInk(codes, getNeighbour(codes, cell, step), at, sampling);
-        }
-        weight += slice.z;
+        const int step = at.x - cell.left < 0.5f * cell.width ? -1 : 1;
+        const Cell other = isPair ? getNeighbour(codes, cell, step) : getCell(codes, opposite.x);
+        ink += part * (getLetterInk(codes, cell, at, sampling, lookUp) +
+                       getLetterInk(codes, other, opposite, sampling, lookUp));
+        weight += isPair ? part : 2.0f * part;
     }
-    return glm::mix(_mean, std::min(ink / weight, 1.0f), legible);
+    return glm::mix(_mean, glm::clamp(ink / weight, 0.0f, 1.0f), legible);
 }
 
 } // namespace osgLabels

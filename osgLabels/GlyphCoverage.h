@@ -38,9 +38,10 @@ private:
     Cell getCell(const std::vector<std::uint32_t>& codes, float x) const;
     Cell getNeighbour(const std::vector<std::uint32_t>& codes, const Cell& cell, int step) const;
     float getLetterInk(const std::vector<std::uint32_t>& codes, const Cell& cell, glm::vec2 place,
-                       const Sampling& sampling) const;
+                       const Sampling& sampling, const glm::vec4& lookUp) const;
     glm::vec4 read(std::size_t image, const glm::vec2& texel) const;
-    Sampling getSampling(float squared, const glm::vec2& doubled) const;
+    Sampling getSampling(float squared, float turn) const;
+    static glm::vec4 getLookUp(const Sampling& sampling, float squared);
 
     const std::shared_ptr<const GlyphSet> _glyphs;
     const GlyphImages _images;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much of a pixel a label's ink covers. GlyphCoverage is its twin in C++; what the images hold
 // is told in GlyphImages.h. Needs labelTable.glsl. One loop with two look-ups a turn, and no branch
-// around it: software renderers run both sides of a branch, and a loop's turn costs them much.
+// around it: software renderers run both sides of a branch. The loop tests at its end, since they
+// run what follows a break once more with all pixels masked.
 // OSGLABELS_PROPORTIONAL: each letter has its own advance. OSGLABELS_OUTLINE: with grown ink.
 uniform sampler2DArray osgLabels_glyphs;
 uniform vec4 osgLabels_levels[8];    // texels an em, offset in texels, margin in em; 7: distances
@@ -11,10 +12,11 @@ uniform vec3 osgLabels_letters;      // cell and overhang in em, mean ink of a c
 uniform vec2 osgLabels_legible;      // under x pixels an em ink fades, to y times its mean
 
 const float osgLabels_Spread = 4.0 / 128.0; // em that 0 and 1 of a distance stand for
-const float osgLabels_LargeFrom = 20.0;     // pixels an em from where distances are used,
-const float osgLabels_HugeFrom = 44.0;      // and from where one does for a pixel
-const float osgLabels_MostLong = 12.0;      // how much longer than wide a footprint may be
-const float osgLabels_MostSlices = 32.0;    // that it is cut into
+const float osgLabels_LargeFrom = 24.0; // pixels an em from where distances are used,
+const float osgLabels_HugeFrom = 48.0;  // and from where one does for a pixel,
+const float osgLabels_Nearing = 8.0;    // towards which four come together over so many pixels
+const float osgLabels_MostLong = 12.0;  // how much longer than wide a footprint may be
+const float osgLabels_MostTurns = 16.0; // of two look-ups
 
 // Where a place lies among a text's letters; the index may be out of range.
 struct osgLabels_Cell
@@ -106,34 +108,115 @@ osgLabels_Cell osgLabels_neighbour(osgLabels_Text text, osgLabels_Cell cell, int
 float osgLabels_width(osgLabels_Text text) { return float(text.length) * osgLabels_letters.x; }
 #endif
 
-// How a letter's image is read: all that is the same over a pixel.
+// How letters' images are read: all that is the same over a pixel.
 struct osgLabels_Sampling
 {
-    vec4 level;
-    vec4 mixing;     // of the channels
-    float distances; // 1 where the image is of distances, 0 where of squares
-    vec2 gain;       // factor and summand from what was read to a share of ink
     osgLabels_Size size;
+    bool isDistance; // else squares
+    vec4 level;
+    vec2 end;        // texels from where the next quarters are read; squares have none
+    float finer;     // 1 / area of the finer squares
+    float turn;      // of squares: 0 upright, 1 by 45 degrees
 };
+
+// For squares of about that area, so that what is read is mixed of the two nearest sizes.
+osgLabels_Sampling osgLabels_samplingOf(float squared, float turn)
+{
+    osgLabels_Sampling sampling;
+    sampling.size = osgLabels_sizeOf();
+    sampling.isDistance = squared * osgLabels_LargeFrom * osgLabels_LargeFrom < 1.0;
+    // By the exponent. A little finer: a finer image of the same squares is the sharper one.
+    int level = clamp(124 - (floatBitsToInt(0.8 * squared) >> 23), 0, 6);
+    sampling.level = osgLabels_levels[sampling.isDistance ? 7 : level];
+    sampling.end = sampling.isDistance ? osgLabels_quarters.zw : vec2(1e9);
+    sampling.finer = intBitsToFloat((level + 130) << 23);
+    sampling.turn = sampling.isDistance ? 0.0 : turn;
+    return sampling;
+}
+
+// A look-up: between the channels, factor and summand to a share of ink.
+vec4 osgLabels_lookUp(osgLabels_Sampling sampling, float squared)
+{
+    float part = squared * sampling.finer;
+    // Near 1 - log2(part): between two sizes, and a little beyond them.
+    float mixing = clamp((2.0 - part) * (4.0 - part) * 0.33333333, -0.5, 1.5);
+    float gain = osgLabels_Spread * inversesqrt(squared);
+    return sampling.isDistance ? vec4(0.0, 0.0, 2.0 * gain, 0.5 - gain)
+                               : vec4(sampling.turn, mixing, 1.0, 0.0);
+}
 
 // Share of a letter's ink about a place of the text.
 float osgLabels_letterInk(osgLabels_Text text, osgLabels_Cell cell, vec2 place,
-                          osgLabels_Sampling sampling, uint which)
+                          osgLabels_Sampling sampling, vec4 lookUp, uint which)
 {
     vec2 layer = osgLabels_layerOf(osgLabels_codeAt(text, cell.index), which, sampling.size);
     place.x -= cell.left;
     place = clamp(place, vec2(-sampling.level.w), vec2(cell.width, 1.0) + sampling.level.w);
     vec2 texel = place * sampling.level.x + sampling.level.yz;
     // The four channels of distances are the quarters of one image, which overlap by two texels.
-    vec2 quarter = step(osgLabels_quarters.zw, texel) * sampling.distances;
-    vec2 other = vec2(sampling.distances) - quarter;
-    vec4 mixing = sampling.mixing + vec4(other.x, quarter.x, other.x, quarter.x) *
-                                        vec4(other.y, other.y, quarter.y, quarter.y);
+    vec2 quarter = step(sampling.end, texel);
     texel -= quarter * osgLabels_quarters.xy;
     texel.x += layer.y * osgLabels_layer.x;
     vec4 read = textureLod(osgLabels_glyphs, vec3(texel * sampling.size.texel, layer.x), 0.0);
-    float share = clamp(dot(read, mixing) * sampling.gain.x + sampling.gain.y, 0.0, 1.0);
+    vec2 mixing = lookUp.xy + quarter;
+    vec2 pair = mix(read.xz, read.yw, mixing.x);
+    float share = clamp(mix(pair.x, pair.y, mixing.y) * lookUp.z + lookUp.w, 0.0, 1.0);
     return cell.index >= 0 && cell.index < text.length ? share : 0.0;
+}
+
+// A footprint along its long axis. Across that it is of one height up to the shoulder, and falls to
+// 0 at the end. Slices are cut from the middle to the end, and with each one that opposite to it:
+// the nearer to the end, the shorter, since there they are lower too.
+struct osgLabels_Slicing
+{
+    vec2 a, b;      // sides, the one longer along the axis first,
+    vec2 run;       // how long they are along it, and 1 / that
+    vec2 inverse;
+    float end, shoulder, height;
+    float skew;     // 0: a rectangle, 1: a rhombus
+};
+
+osgLabels_Slicing osgLabels_slicingOf(vec2 a, vec2 b, vec2 twice, float axis, float area)
+{
+    vec2 direction = twice.x > 0.0 ? vec2(axis + twice.x, twice.y)
+                                   : vec2(twice.y, axis - twice.x);
+    direction *= inversesqrt(max(dot(direction, direction), 1e-36));
+    vec2 run = vec2(dot(a, direction), dot(b, direction));
+    a = run.x < 0.0 ? -a : a;
+    b = run.y < 0.0 ? -b : b;
+    run = abs(run);
+    osgLabels_Slicing slicing;
+    slicing.a = run.x < run.y ? b : a;
+    slicing.b = run.x < run.y ? a : b;
+    slicing.run = vec2(max(run.x, run.y), min(run.x, run.y));
+    slicing.inverse = 1.0 / max(slicing.run, 1e-18);
+    slicing.end = 0.5 * (slicing.run.x + slicing.run.y);
+    slicing.shoulder = 0.5 * (slicing.run.x - slicing.run.y);
+    slicing.height = area * slicing.inverse.x;
+    slicing.skew = slicing.run.y * slicing.inverse.x;
+    return slicing;
+}
+
+// The end of the slice that ends at a share of all; area and moment from the middle up to there.
+vec3 osgLabels_upTo(osgLabels_Slicing slicing, float share)
+{
+    float rest = 1.0 - share;
+    float end = slicing.end * share * (1.0 + 0.9 * slicing.skew * rest * rest);
+    float over = max(end - slicing.shoulder, 0.0);
+    float fallen = over * min(over * slicing.inverse.y, 1.0);
+    return vec3(end, end - 0.5 * fallen,
+                0.5 * end * end - fallen * (0.5 * slicing.shoulder + 0.33333333 * over));
+}
+
+// What stands for a slice: a square's place from the footprint's middle and its area.
+vec3 osgLabels_squareOf(osgLabels_Slicing slicing, vec3 slice)
+{
+    float along = slice.z / slice.y;
+    float t = 0.5 * clamp((along - slicing.shoulder) * slicing.inverse.y, 0.0, 1.0);
+    float s = (along - t * slicing.run.y) * slicing.inverse.x;
+    // As high as the slice; but where slices are longer than that, letters would show between.
+    float side = max(slicing.height * (1.0 - 2.0 * t), 0.6 * slice.x);
+    return vec3(s * slicing.a + t * slicing.b, side * side);
 }
 
 float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
@@ -143,80 +226,57 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     float squares = columns.x + columns.y;
     float area = max(abs(a.x * b.y - a.y * b.x), 1e-30);
 
-    // The long axis, as a vector of twice its angle, and how much longer it is.
+    // The long axis, as a vector of twice its angle. Slices from 1.65 times longer than wide on.
     vec2 twice = vec2(0.5 * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     float axis = length(twice);
-    float longest = 0.5 * squares + axis; // squared
-    // Quarters: of large letters, and of a pixel that is 1.25 to 2.2 times longer than wide.
-    bool isLong = squares > 2.65 * area;
-    vec2 sizes = area * vec2(osgLabels_LargeFrom * osgLabels_LargeFrom,
-                             osgLabels_HugeFrom * osgLabels_HugeFrom);
-    bool isQuartered = !isLong && (squares > 2.05 * area || (sizes.x < 1.0 && sizes.y > 1.0));
-    float ratio = isLong ? longest / area : 1.0;
+    bool isLong = squares > 2.26 * area;
+    osgLabels_Slicing slicing = osgLabels_slicingOf(a, b, twice, axis, area);
+    float ratio = min((0.5 * squares + axis) / area, osgLabels_MostLong);
+    float slices = ratio + slicing.skew * (0.6 * ratio + 0.5);
 
-    // A look-up is of a square: of the pixel's area, or as wide as a long pixel is narrow.
-    // An even number of slices makes them thinner than long: half of that goes to their squares.
-    float thinner = isLong ? sqrt(ratio / (2.0 * ceil(0.5 * ratio))) : 1.0;
-    float least = longest / (osgLabels_MostLong * osgLabels_MostLong);
-    float squared = isLong ? max(area / ratio * thinner, least) : isQuartered ? 0.25 * area : area;
-    float pixels = inversesqrt(squared); // an em
-    bool isDistance = pixels > osgLabels_LargeFrom;
-    float level = clamp(-log2(squared) - 2.0, 0.0, 6.999);
-    float finer = fract(level);
+    // Else quarters of large letters, and of pixels that are 1.15 times longer than wide.
+    float pixels = inversesqrt(area); // an em
+    float spread = squares > 2.02 * area ? 1.0
+                   : pixels < osgLabels_LargeFrom
+                       ? 0.0
+                       : clamp((osgLabels_HugeFrom - pixels) / osgLabels_Nearing, 0.0, 1.0);
+    float quartered = area * (1.0 - 0.75 * spread * spread); // what a look-up covers
+    bool isPair = !isLong && spread == 0.0;
+
+    float typical = isLong ? slicing.height * slicing.height * (1.0 - 0.4 * slicing.skew)
+                           : quartered;
     vec2 doubled = isLong ? twice : vec2(a.x * a.x - a.y * a.y, 2.0 * a.x * a.y);
     float turn = doubled.y * doubled.y / max(dot(doubled, doubled), 1e-36);
-    osgLabels_Sampling sampling;
-    sampling.size = osgLabels_sizeOf();
-    sampling.level = osgLabels_levels[isDistance ? 7 : int(level)];
-    sampling.distances = isDistance ? 1.0 : 0.0;
-    sampling.mixing = vec4(1.0 - turn, turn, 1.0 - turn, turn) *
-                      vec4(vec2(1.0 - finer), vec2(finer)) * (1.0 - sampling.distances);
-    float gain = osgLabels_Spread * pixels;
-    sampling.gain = isDistance ? vec2(2.0 * gain, 0.5 - gain) : vec2(1.0, 0.0);
-
-    // Slices lie across the axis, each a square in the middle of what it cuts of the footprint.
-    // Sides are turned to run along the axis, the longer there first.
-    vec2 direction = twice.x > 0.0 ? vec2(axis + twice.x, twice.y)
-                                   : vec2(twice.y, axis - twice.x);
-    vec2 run = vec2(dot(a, direction), dot(b, direction));
-    a = run.x < 0.0 ? -a : a;
-    b = run.y < 0.0 ? -b : b;
-    run = abs(run);
-    vec2 first = run.x < run.y ? b : a;
-    b = run.x < run.y ? a : b;
-    a = first;
-    run = vec2(max(run.x, run.y), min(run.x, run.y));
-    vec2 inverse = 1.0 / max(run, 1e-25);
-
-    // Of a footprint that is upright on its axis slices may be squares; askew they are thinner.
-    float slices = min(ratio, osgLabels_MostLong) * (1.0 + 1.9 * run.y * inverse.x);
-    float count = isLong ? min(2.0 * ceil(0.5 * slices), osgLabels_MostSlices)
-                         : isQuartered ? 4.0 : 2.0;
+    osgLabels_Sampling sampling = osgLabels_samplingOf(typical, turn);
 
     // Two look-ups a turn: of two slices or quarters, or of a letter and its nearer neighbour.
-    bool isPair = count == 2.0 && !isLong;
-    vec2 toAlong = vec2(1.0, 0.5 - 0.5 * count) * (run.x + run.y) / count;
-    float ink = 0.0, weight = isPair ? 1.0 : 0.0;
+    float turns = isLong ? clamp(ceil(0.5 * slices - 0.2), 1.0, osgLabels_MostTurns)
+                         : isPair ? 1.0 : 2.0;
     osgLabels_Cell cell = osgLabels_cellAt(text, osgLabels_Cell(-1, 0.0, 0.0), place.x);
-    for (float i = 0.0; i < count; i += 2.0)
+    osgLabels_Cell neighbour =
+        osgLabels_neighbour(text, cell, place.x - cell.left < 0.5 * cell.width ? -1 : 1);
+    float ink = 0.0, weight = 0.0, i = 0.0;
+    vec3 before = vec3(0.0);
+    do
     {
-        vec2 along = vec2(i, i + 1.0) * toAlong.x + toAlong.y;
-        vec2 low = clamp((along - 0.5 * run.x) * inverse.y, -0.5, 0.5);
-        vec2 high = clamp((along + 0.5 * run.x) * inverse.y, -0.5, 0.5);
-        vec2 t = 0.5 * (low + high), s = (along - t * run.y) * inverse.x, width = high - low;
-        t = isLong ? t : isQuartered ? vec2(0.25 * i - 0.25) : vec2(0.0);
-        s = isLong ? s : isQuartered ? vec2(-0.25, 0.25) : vec2(0.0);
-        width = isLong ? width : vec2(1.0);
-        vec2 at = place + s.x * a + t.x * b, next = place + s.y * a + t.y * b;
+        vec2 off = spread * (0.25 * a + (i > 0.0 ? -0.25 : 0.25) * b);
+        vec3 upTo = osgLabels_upTo(slicing, (i + 1.0) / turns);
+        vec3 slice = upTo - before;
+        vec3 square = isLong ? osgLabels_squareOf(slicing, slice) : vec3(off, quartered);
+        float part = isLong ? slice.y : 1.0;
+        before = upTo;
+        vec4 lookUp = osgLabels_lookUp(sampling, square.z);
+        vec2 at = place + square.xy, opposite = place - square.xy;
         cell = osgLabels_cellAt(text, cell, at.x);
-        osgLabels_Cell other = osgLabels_cellAt(text, cell, next.x);
+        osgLabels_Cell other = osgLabels_cellAt(text, cell, opposite.x);
         if (isPair)
-            other = osgLabels_neighbour(text, cell, at.x - cell.left < 0.5 * cell.width ? -1 : 1);
-        ink += width.x * osgLabels_letterInk(text, cell, at, sampling, which) +
-               width.y * osgLabels_letterInk(text, other, next, sampling, which);
-        weight += isPair ? 0.0 : width.x + width.y;
-    }
-    ink = min(ink / weight, 1.0);
+            other = neighbour;
+        ink += part * (osgLabels_letterInk(text, cell, at, sampling, lookUp, which) +
+                       osgLabels_letterInk(text, other, opposite, sampling, lookUp, which));
+        weight += isPair ? part : 2.0 * part;
+        i += 1.0;
+    } while (i < turns);
+    ink = clamp(ink / weight, 0.0, 1.0);
     float faint = area * osgLabels_legible.x * osgLabels_legible.x;
     float legible = clamp(2.0 * inversesqrt(max(faint, 1e-30)) - 1.0, 0.0, 1.0);
     float mean = osgLabels_letters.z * osgLabels_legible.y;

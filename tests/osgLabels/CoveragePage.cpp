@@ -54,9 +54,14 @@ void main()
 
 glm::mat2 CoverageView::getFootprint() const
 {
-    const double angle = degrees * 3.14159265358979 / 180.0;
-    const double c = std::cos(angle), s = std::sin(angle);
-    return glm::dmat2(c * squash, -s, s * squash, c) / pixelsPerEm;
+    const auto turn = [](double angle)
+    {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return glm::dmat2(c, -s, s, c);
+    };
+    constexpr double Degree = 3.14159265358979 / 180.0;
+    return turn(-axis * Degree) * glm::dmat2(squash, 0.0, 0.0, 1.0) * turn(degrees * Degree) /
+           pixelsPerEm;
 }
 
 CoveragePage::CoveragePage(const std::shared_ptr<osgLabels::GlyphSet>& glyphs,

@@ -11,12 +11,13 @@
 #include <string>
 #include <vector>
 
-/// How the page's plane is seen: turned, then squashed along the text, in an orthographic view.
+/// How the page's plane is seen in an orthographic view: turned, then squashed.
 struct CoverageView
 {
     std::string name;
     double degrees = 0.0;
     double squash = 1.0;
+    double axis = 0.0;         ///< Degrees from the text to what is squashed.
     double pixelsPerEm = 16.0; ///< Across the squashed direction.
     glm::dvec2 shift{0.0};     ///< Of the camera, in pixels.
 
