@@ -167,6 +167,10 @@ TEST_F(MixGLTest, equalsTheReferenceForAllSetsModesViewsAndRules)
         for (const KeySet& set : makeKeySets(count, 11))
             for (const KeyMode mode : AllKeyModes)
             {
+                // 10,000 lines across each other take seconds a picture in software.
+                if (count == 10000 &&
+                    mode != (set.name == "path" ? KeyMode::Polyline : KeyMode::Points))
+                    continue;
                 SCOPED_TRACE(set.name + " " + std::to_string(count) + " mode " +
                              std::to_string(int(mode)) + " kind " + std::to_string(kind));
                 ASSERT_NO_FATAL_FAILURE(compare(set, mode, kind++));
