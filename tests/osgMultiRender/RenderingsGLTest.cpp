@@ -172,8 +172,9 @@ TEST_F(RenderingsGLTest, surfacesAreAntialiased)
         const double error = rms(*picture, *shrink(*large, 4));
         std::printf("%-10s differs from its supersampled picture by %.2f %% RMS\n",
                     rendering.name.c_str(), 100.0 * error);
-        // Edges of triangles alone, which no shader can soften, are some 4 %.
-        EXPECT_LT(error, 0.07) << rendering.name;
+        // Edges of triangles, which no shader can soften, are some 1 to 2 %. A checker board
+        // without its filter is at 4.7.
+        EXPECT_LT(error, 0.045) << rendering.name;
     }
 }
 
