@@ -1,0 +1,168 @@
+// How much each rendering counts in a fragment, by the distance to the nearest key point or
+// segment. The layout is that of MixTexels; the reference in double precision is KeyPoints and
+// MixWeights. One program serves any number of key points and all modes, ranges and rules.
+//
+//     osgmr_mixAt(eyePosition);
+//     vec4 sum = vec4(0.0);
+//     if (osgmr_weight(0) > 0.0) sum += osgmr_weight(0) * vec4(colour of rendering 0, 1.0);
+//     ...
+//     gl_FragColor = osgmr_mixed(sum);
+
+uniform usamplerBuffer osgmr_mix;
+uniform mat3 osgmr_mixFrame; // from eye space to the key points'; both have the eye at 0
+uniform ivec4 osgmr_mixKeys; // texel of the tree's root or 0; of the first segment; their number;
+                             // texels a segment: 1 for points, 2 for lines
+uniform ivec4 osgmr_mixRules; // number of renderings; base or -1; whether to normalise
+uniform vec4 osgmr_mixBackground;
+
+const float osgmr_noDistance = 1e30; // no key points, or a position that is not a number
+const int osgmr_mixLeafSize = 4;
+const int osgmr_mixStack = 32;
+
+float osgmr_mixScale = 1.0;
+float osgmr_mixMissing = 0.0;
+float osgmr_mixDistance = osgmr_noDistance;
+
+vec4 osgmr_mixFloats(int texel)
+{
+    return uintBitsToFloat(texelFetch(osgmr_mix, texel));
+}
+
+vec4 osgmr_mixBytes(uint word)
+{
+    return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u);
+}
+
+// Squared distance to a segment.
+float osgmr_segment(int texel, vec3 at)
+{
+    vec4 place = osgmr_mixFloats(texel);
+    vec3 away = at - place.xyz;
+    if (osgmr_mixKeys.w > 1)
+    {
+        vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
+        away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
+    }
+    return dot(away, away);
+}
+
+float osgmr_nearestOf(int texel, int count, vec3 at, float nearest)
+{
+    for (int i = 0; i < count; ++i)
+    {
+        float square = osgmr_segment(texel, at);
+        if (square < nearest) // never for what is not a number
+            nearest = square;
+        texel += osgmr_mixKeys.w;
+    }
+    return nearest;
+}
+
+// How far a coordinate is outside of four intervals.
+vec4 osgmr_outside(uint lows, uint highs, float unit, float at)
+{
+    return max(max(unit * osgmr_mixBytes(lows) - at, at - unit * osgmr_mixBytes(highs)), 0.0);
+}
+
+// Squared distances to the boxes of a node's four children: bytes times a power of two.
+vec4 osgmr_boxes(int node, vec3 at)
+{
+    uvec4 origin = texelFetch(osgmr_mix, node);
+    uvec4 words = texelFetch(osgmr_mix, node + 1);
+    uvec4 others = texelFetch(osgmr_mix, node + 2);
+    vec3 from = at - uintBitsToFloat(origin.xyz);
+    vec3 unit = uintBitsToFloat((uvec3(origin.w, origin.w >> 8, origin.w >> 16) & 255u) << 23);
+    vec4 x = osgmr_outside(words.x, words.w, unit.x, from.x);
+    vec4 y = osgmr_outside(words.y, others.x, unit.y, from.y);
+    vec4 z = osgmr_outside(words.z, others.y, unit.z, from.z);
+    return x * x + y * y + z * z;
+}
+
+// The child with the nearest box is entered at once, the others wait with their distances. Down to
+// a leaf without branches, so that neighbouring fragments stay together.
+float osgmr_nearestInTree(vec3 at, float nearest)
+{
+    float waitingSquares[osgmr_mixStack];
+    int waiting[osgmr_mixStack];
+    int depth = 0;
+    int address = osgmr_mixKeys.x;
+    for (;;)
+    {
+        while (address > 0)
+        {
+            ivec4 children = ivec4(texelFetch(osgmr_mix, address + 3));
+            vec4 squares = osgmr_boxes(address, at);
+            address = 0;
+            float best = nearest;
+            for (int i = 0; i < 4; ++i)
+            {
+                bool enters = children[i] != 0 && squares[i] < nearest;
+                bool isNearest = enters && squares[i] < best;
+                waitingSquares[depth] = isNearest ? best : squares[i];
+                waiting[depth] = isNearest ? address : children[i];
+                depth += int(enters && (address != 0 || !isNearest));
+                best = isNearest ? squares[i] : best;
+                address = isNearest ? children[i] : address;
+            }
+        }
+        if (address < 0)
+        {
+            int leaf = -1 - address;
+            nearest = osgmr_nearestOf(osgmr_mixKeys.y + leaf / osgmr_mixLeafSize * osgmr_mixKeys.w,
+                                      leaf % osgmr_mixLeafSize + 1, at, nearest);
+        }
+        address = 0;
+        while (depth > 0 && address == 0)
+            if (waitingSquares[--depth] < nearest)
+                address = waiting[depth];
+        if (address == 0)
+            return nearest;
+    }
+}
+
+// From a position in eye space, in units of the key points.
+float osgmr_distance(vec3 eyePosition)
+{
+    vec3 at = osgmr_mixFrame * eyePosition;
+    const float none = 3e38;
+    float nearest = osgmr_mixKeys.x > 0
+                        ? osgmr_nearestInTree(at, none)
+                        : osgmr_nearestOf(osgmr_mixKeys.y, osgmr_mixKeys.z, at, none);
+    return nearest < none ? sqrt(nearest) : osgmr_noDistance;
+}
+
+// Of one rendering alone, before the rules.
+float osgmr_rangeWeight(int rendering, float distance)
+{
+    vec4 range = osgmr_mixFloats(1 + rendering);
+    if (distance < range.y)
+        return distance > range.x ? (distance - range.x) / (range.y - range.x) : 0.0;
+    if (distance > range.z)
+        return distance < range.w ? (range.w - distance) / (range.w - range.z) : 0.0;
+    return 1.0;
+}
+
+// To be called first, once a fragment: all else is of that position.
+void osgmr_mixAt(vec3 eyePosition)
+{
+    osgmr_mixDistance = osgmr_distance(eyePosition);
+    float sum = 0.0;
+    for (int i = 0; i < osgmr_mixRules.x; ++i)
+        sum += osgmr_rangeWeight(i, osgmr_mixDistance);
+    osgmr_mixScale = osgmr_mixRules.z != 0 && sum > 1.0 ? 1.0 / sum : 1.0;
+    osgmr_mixMissing = max(0.0, 1.0 - sum);
+}
+
+// Of a rendering, by the rules.
+float osgmr_weight(int rendering)
+{
+    return osgmr_rangeWeight(rendering, osgmr_mixDistance) * osgmr_mixScale +
+           (rendering == osgmr_mixRules.y ? osgmr_mixMissing : 0.0);
+}
+
+// The fragment's colour from the sum of weight * vec4(colour, 1.0).
+vec4 osgmr_mixed(vec4 sum)
+{
+    float background = osgmr_mixRules.y < 0 ? osgmr_mixMissing * osgmr_mixBackground.a : 0.0;
+    return clamp(sum + background * vec4(osgmr_mixBackground.rgb, 1.0), 0.0, 1.0);
+}
