@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Map labels in a viewer of one's own: a LabelScene over the scene, labels on houses and on what
-// moves, a click that asks.
+// Map labels in a viewer of one's own: on houses, on what moves, and a click that asks.
 #include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelScene.h>
 #include <osgLabels/MapLabels.h>
@@ -12,7 +11,6 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace
@@ -103,9 +101,9 @@ int main(int argc, char** argv)
     std::string setting, error;
     while (arguments.read("-s", setting))
     {
-        const std::size_t equals = std::min(setting.find('='), setting.size());
-        if (!setLabelOption(settings, setting.substr(0, equals),
-                            setting.substr(std::min(equals + 1, setting.size())), error))
+        const std::size_t equals = setting.find('=');
+        const std::string value = equals < setting.size() ? setting.substr(equals + 1) : "";
+        if (!setLabelOption(settings, setting.substr(0, equals), value, error))
             return std::fprintf(stderr, "embed_maplabels: %s\n", error.c_str()), 2;
     }
     osg::ref_ptr<LabelScene> scene = new LabelScene;
@@ -113,8 +111,9 @@ int main(int argc, char** argv)
     scene->addChild(makeTown());
     scene->addChild(makeBus());
     viewer.setSceneData(scene);
-    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
-    viewer.getCameraManipulator()->setHomePosition({-40, -75, 40}, {0, 0, 0}, {0, 0, 1});
+    osg::ref_ptr<osgGA::TrackballManipulator> trackball = new osgGA::TrackballManipulator;
+    trackball->setHomePosition({-40, -75, 40}, {0, 0, 0}, {0, 0, 1});
+    viewer.setCameraManipulator(trackball);
     viewer.addEventHandler(new Asker(*scene));
     viewer.addEventHandler(new osgViewer::HelpHandler); // h shows the keys for labels, too.
     return viewer.run();

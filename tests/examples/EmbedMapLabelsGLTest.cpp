@@ -15,11 +15,18 @@ protected:
         OSGKITS_NEED_GL(viewer);
     }
 
-    /// The example without a display; its picture where it ends well.
+    /// The example's picture without a display, where it ends well.
     osg::ref_ptr<osg::Image> view(const std::vector<std::string>& words,
                                   support::ProcessResult& result) const
     {
         const std::string file = _folder.file("view.png");
+        result = run(words, file);
+        return result.exitCode == 0 ? osgDB::readRefImageFile(file) : nullptr;
+    }
+
+    support::ProcessResult run(const std::vector<std::string>& words,
+                               const std::string& capture = {}) const
+    {
         support::ChildProcess process;
         process.arguments = {OSGKITS_EMBED_MAPLABELS,
                              "-e",
@@ -31,10 +38,9 @@ protected:
                              "480",
                              "240"};
         process.arguments.insert(process.arguments.end(), words.begin(), words.end());
-        process.environment = {{"OSG_RUN_FRAME_COUNT", "2"}, {"OSG_HEADLESS_CAPTURE", file}};
+        process.environment = {{"OSG_RUN_FRAME_COUNT", "2"}, {"OSG_HEADLESS_CAPTURE", capture}};
         process.unset = {"DISPLAY"};
-        result = process.run();
-        return result.exitCode == 0 ? osgDB::readRefImageFile(file) : nullptr;
+        return process.run();
     }
 
     support::TemporaryFolder _folder;
@@ -54,10 +60,9 @@ TEST_F(EmbedMapLabelsGLTest, labelsItsTownAndTakesSettings)
 
 TEST_F(EmbedMapLabelsGLTest, wrongSettingsAreNamed)
 {
-    support::ProcessResult result;
     for (const char* const wrong : {"mapsize=huge", "mapclass=tree", "nonsense", ""})
     {
-        EXPECT_FALSE(view({"-s", wrong}, result));
+        const support::ProcessResult result = run({"-s", wrong});
         EXPECT_EQ(result.exitCode, 2) << wrong;
         EXPECT_NE(result.errors.find("embed_maplabels: setting"), std::string::npos)
             << result.errors;

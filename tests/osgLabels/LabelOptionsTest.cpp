@@ -71,7 +71,7 @@ std::string knownOptions()
            "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, surface=auto|on|off, "
            "map=off|values|<file.csv>, mapsize=<1..1000>, mapworld=<0..1e+09>, "
            "mapoffset=<0..1e+09>, mapdepth=anchor|back, "
-           "mapaction=hide|outline|recolor|fade|ignore, mapclass=<pattern:action,...>, "
+           "mapaction=hide|outline|recolor|fade|ignore, mapclass=<pattern:action>, "
            "maptest=pixel|anchor|share, mapleader=<0..1000>, mapfade=<0..1>, "
            "mapcolor=<#rrggbb>, declutter=on|off, keys=on|off";
 }
