@@ -128,6 +128,7 @@ void MapScene::addValued(MapFeatures::Valued valued)
 
 void MapScene::activate(osg::Group& group)
 {
+    std::lock_guard<std::mutex> lock(_cullMutex);
     if (!_isActive)
         features.collect(group);
     else
@@ -156,6 +157,7 @@ bool MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
 
 void MapScene::prepareValued(const osg::Matrixd& groupToEye, std::vector<EyeLabel>& labels)
 {
+    std::lock_guard<std::mutex> cullLock(_cullMutex);
     std::vector<MapFeatures::Valued> found;
     {
         std::lock_guard<std::mutex> lock(_mutex);

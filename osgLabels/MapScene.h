@@ -59,11 +59,12 @@ private:
     void addValued(MapFeatures::Valued valued);
     void readFile(const std::string& file);
 
-    std::mutex _mutex;
-    std::vector<MapFeatures::Valued> _found; ///< Not yet in _valued.
+    std::mutex _cullMutex; ///< Of what follows; locked before that of features.
     std::vector<Valued> _valued;
-    osg::ref_ptr<MapLabels> _fileLabels;
     bool _isActive = false;
+    osg::ref_ptr<MapLabels> _fileLabels;
+    std::mutex _mutex;                       ///< Of what follows.
+    std::vector<MapFeatures::Valued> _found; ///< Not yet in _valued.
     struct Memory
     {
         osg::observer_ptr<const osg::Camera> camera;

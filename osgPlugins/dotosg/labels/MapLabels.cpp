@@ -8,10 +8,10 @@
 #include <osgMultiRender/Option.h>
 
 // MapLabels in files of the old .osg format, one line a label: x, y, z, priority, text, style and
-// feature.
+// feature. Texts begin with =, since the format has no empty ones.
 //
 //     osgLabels::MapLabels {
-//       label 0.5 0 12.25 1 "Capitol Building" "" "capitol"
+//       label 0.5 0 12.25 1 "=Capitol Building" "=" "=capitol"
 //       …
 
 namespace
@@ -19,6 +19,12 @@ namespace
 
 using osgLabels::MapLabel;
 using osgLabels::MapLabels;
+
+std::string textOf(osgDB::Field& field)
+{
+    const std::string text = field.getStr() ? field.getStr() : "";
+    return text.empty() ? text : text.substr(1);
+}
 
 bool readLocalData(osg::Object& object, osgDB::Input& in)
 {
@@ -33,9 +39,9 @@ bool readLocalData(osg::Object& object, osgDB::Input& in)
         for (int i = 0; i < 4; ++i)
             if (!osgMultiRender::parseNumber(std::string(in[1 + i].getStr()), *numbers[i]))
                 return before != labels.size();
-        label.text = in[5].getStr();
-        label.style = in[6].getStr();
-        label.feature = in[7].getStr();
+        label.text = textOf(in[5]);
+        label.style = textOf(in[6]);
+        label.feature = textOf(in[7]);
         labels.push_back(std::move(label));
         in += 8;
     }
@@ -54,7 +60,7 @@ bool writeLocalData(const osg::Object& object, osgDB::Output& out)
              {label.anchor.x(), label.anchor.y(), label.anchor.z(), label.priority})
             out << ' ' << osgMultiRender::formatNumber(number);
         for (const std::string& text : {label.text, label.style, label.feature})
-            out << ' ' << out.wrapString(text);
+            out << ' ' << out.wrapString("=" + text);
         out << "\n";
     }
     return true;
