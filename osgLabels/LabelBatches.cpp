@@ -134,6 +134,15 @@ std::uint32_t LabelBatches::recordBaseOf(const PrimitiveRun& run)
     return added == _bases.end() ? 0 : added->second;
 }
 
+void LabelBatches::forEach(const std::function<void(const PrimitiveBatch&, std::uint32_t)>& f) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    osg::ref_ptr<PrimitiveBatch> batch;
+    for (const auto& [address, entry] : _batches)
+        if (entry->objects && entry->batch.lock(batch) && batch->getRuns() == entry->runs)
+            f(*batch, entry->firstRecord);
+}
+
 LabelBatches::Batches::iterator LabelBatches::remove(Batches::iterator batch)
 {
     const EntryPointer entry = batch->second;

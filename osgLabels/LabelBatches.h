@@ -49,6 +49,9 @@ public:
     /// What has to be added to the place of a record in the run's page; 0 for a run of no batch.
     /// Takes in the run's batch where it is new or has been built anew.
     std::uint32_t recordBaseOf(const PrimitiveRun& run);
+    /// Calls `f` with each batch that has been taken in as it is now, and its first object's
+    /// record.
+    void forEach(const std::function<void(const PrimitiveBatch&, std::uint32_t)>& f) const;
     /// Forgets batches that are gone.
     void sweep();
 

@@ -41,6 +41,8 @@ class OSGLABELS_EXPORT LabelCollector
 public:
     using Encode = std::function<LabelTable::Codes(const std::string& utf8)>;
     using StyleOf = std::function<std::uint32_t(const std::string& name)>;
+    /// The text of the last node of a path below the group; none where it has no label.
+    using Find = std::function<std::optional<LabelSource::Found>(const osg::NodePath& path)>;
 
     /// What several share that number things for the same table.
     struct Shared
@@ -53,6 +55,10 @@ public:
     /// under the collector's lock; without the latter no label has a style of its own.
     LabelCollector(std::shared_ptr<LabelTable> table, std::shared_ptr<const LabelSource> source,
                    Encode encode, std::shared_ptr<Shared> shared = std::make_shared<Shared>(),
+                   StyleOf styleOf = {});
+    /// `find` is called under the collector's lock.
+    LabelCollector(std::shared_ptr<LabelTable> table, Find find, Encode encode,
+                   std::shared_ptr<Shared> shared = std::make_shared<Shared>(),
                    StyleOf styleOf = {});
     ~LabelCollector();
     LabelCollector(const LabelCollector&) = delete;
@@ -156,7 +162,7 @@ private:
     bool isCurrent(const osg::Group& group, const Entry& entry, std::size_t mostPaths) const;
 
     const std::shared_ptr<LabelTable> _table;
-    const std::shared_ptr<const LabelSource> _source;
+    const Find _find;
     const Encode _encode;
     const StyleOf _styleOf;
     const std::shared_ptr<Shared> _shared;

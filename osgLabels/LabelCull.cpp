@@ -3,6 +3,7 @@
 #include <osgLabels/LabelPass.h>
 
 #include <osgLabels/ChunkMesh.h>
+#include <osgLabels/MapPass.h>
 #include <osgLabels/PrimitiveRun.h>
 
 #include <osg/Geometry>
@@ -53,32 +54,37 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
                      const osg::StateSet* scope)
 {
     takeQuestions(visitor);
-    if (_resources && _resources->collector)
-        findObjects(visitor, group, scope);
+    if (!_resources || !_resources->collector)
+        return;
+    std::vector<const osgUtil::RenderLeaf*> leaves;
+    forEachLeaf(*visitor.getCurrentRenderBin()->getStage(), scope,
+                [&](const osgUtil::RenderLeaf& leaf) { leaves.push_back(&leaf); });
+    if (!_ticket)
+        _ticket = _resources->shared->frames.begin();
+    if (_resources->hasSurfaceLabels())
+        findObjects(visitor, group, leaves);
+    if (_map)
+        _map->cull(visitor, group, leaves);
 }
 
 void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
-                            const osg::StateSet* scope)
+                            const std::vector<const osgUtil::RenderLeaf*>& leaves)
 {
-    if (!_ticket)
-        _ticket = _resources->shared->frames.begin();
     std::vector<std::pair<const osgUtil::RenderLeaf*, std::uint32_t>> objects;
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
-        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(), scope,
-                    [&](const osgUtil::RenderLeaf& leaf)
-                    {
-                        const osg::Drawable& drawable = *leaf._drawable;
-                        if (auto* run = dynamic_cast<const PrimitiveRun*>(&drawable))
-                            addNumber(leaf, _resources->batches.recordBaseOf(*run));
-                        else if (ChunkMesh::isOne(drawable))
-                            addNumber(leaf, _resources->objects.indexOf(1));
-                        else if (!isPoints(drawable))
-                            objects.emplace_back(
-                                &leaf,
-                                view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview)
-                                                                    : osg::Matrixd()));
-                    });
+        for (const osgUtil::RenderLeaf* leaf : leaves)
+        {
+            const osg::Drawable& drawable = *leaf->_drawable;
+            if (auto* run = dynamic_cast<const PrimitiveRun*>(&drawable))
+                addNumber(*leaf, _resources->batches.recordBaseOf(*run));
+            else if (ChunkMesh::isOne(drawable))
+                addNumber(*leaf, _resources->objects.indexOf(1));
+            else if (!isPoints(drawable))
+                objects.emplace_back(leaf, view.find(drawable, leaf->_modelview
+                                                                   ? osg::Matrixd(*leaf->_modelview)
+                                                                   : osg::Matrixd()));
+        }
     }
     _resources->fitNew();
     for (const auto& [leaf, object] : objects)

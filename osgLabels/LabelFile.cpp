@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelFile.h>
 
-#include <csv.h>
+#include <osgLabels/CsvRecords.h>
+#include <osgLabels/TextFile.h>
+
 #include <nlohmann/json.hpp>
 
 #include <osgDB/FileNameUtils>
@@ -9,7 +11,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <vector>
 
 namespace osgLabels
@@ -51,69 +52,35 @@ struct Entries
     }
 };
 
-/// Fields of one record at a time, as libcsv reports them.
-struct CsvReader
+void readTable(const std::string& content, Entries& entries)
 {
-    Entries& entries;
-    std::vector<std::string> fields;
-    std::size_t line = 0; ///< On which the record starts.
     bool isFirst = true;
-    std::size_t columns = 2; ///< 3 with styles.
-
-    static void field(void* data, std::size_t size, void* self)
+    std::size_t columns = 2; // 3 with styles
+    const auto take = [&](CsvRecord& record)
     {
-        static_cast<CsvReader*>(self)->fields.emplace_back(static_cast<const char*>(data), size);
-    }
-    static void record(int, void* self) { static_cast<CsvReader*>(self)->endRecord(); }
-
-    void endRecord()
-    {
+        const std::vector<std::string>& fields = record.fields;
         const bool isHeading = isFirst && fields.size() >= 2 && lowered(fields[0]) == "name" &&
                                (lowered(fields[1]) == "text" || lowered(fields[1]) == "label");
         isFirst = false;
         if (isHeading && fields.size() == 3 && lowered(fields[2]) == "style")
             columns = 3;
         if (fields.size() != columns)
-        {
-            const bool isOther =
-                fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos;
-            entries.fail(line,
+            entries.fail(record.line,
                          (columns == 2 ? "a line has two columns, name and text, this one has "
                                        : "a line has three columns, name, text and style, this one "
                                          "has ") +
-                             std::to_string(fields.size()) +
-                             (isOther ? "; separate them by a comma"
-                                      : "; quote a text that has a comma: \"a,b\""));
-        }
+                             std::to_string(fields.size()) + csvColumnRemedy(fields));
         else if (!isHeading)
-            entries.add(fields[0], {fields[1], columns == 3 ? fields[2] : std::string()}, line);
-        fields.clear();
-        line = 0;
-    }
-};
-
-void readCsv(const std::string& content, Entries& entries)
-{
-    csv_parser parser;
-    csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI);
-    csv_set_space_func(&parser, [](unsigned char) { return 0; }); // spaces are part of a field
-    CsvReader reader{entries, {}};
-    std::size_t line = 1;
-    // Line by line, so that the number of each is known.
-    for (std::size_t at = 0; at < content.size() && entries.error.empty(); ++line)
-    {
-        const std::size_t end = std::min(content.find('\n', at), content.size() - 1) + 1;
-        if (!reader.line && content.find_first_not_of("\r\n", at) < end)
-            reader.line = line;
-        if (csv_parse(&parser, content.data() + at, end - at, CsvReader::field, CsvReader::record,
-                      &reader) != end - at)
-            entries.fail(line, "a quote inside of a field; double it, and quote the field: "
-                               "\"say \"\"so\"\"\"");
-        at = end;
-    }
-    if (entries.error.empty() && csv_fini(&parser, CsvReader::field, CsvReader::record, &reader))
-        entries.fail(reader.line, "a quote is opened and never closed; close it");
-    csv_free(&parser);
+            entries.add(fields[0], {fields[1], columns == 3 ? fields[2] : std::string()},
+                        record.line);
+        return entries.error.empty();
+    };
+    readCsv(content, take,
+            [&](std::size_t line, const std::string& cause)
+            {
+                entries.fail(line, cause);
+                return false;
+            });
 }
 
 using Json = nlohmann::json;
@@ -189,18 +156,13 @@ bool readLabelFile(const std::string& path, TextByName& texts, std::string& erro
     const std::string extension = osgDB::getLowerCaseFileExtension(path);
     Entries entries{path, {}, {}};
     osgDB::ifstream file(path.c_str(), std::ios::binary);
-    const std::string content{std::istreambuf_iterator<char>(file),
-                              std::istreambuf_iterator<char>()};
-    // A folder opens, too, and then reads nothing and is bad.
-    if (!file.is_open() || file.bad())
-        entries.fail(0, "cannot be read; does it exist?");
-    else if (content.compare(0, 2, "\xff\xfe") == 0 || content.compare(0, 2, "\xfe\xff") == 0)
-        entries.fail(0, "is UTF-16; save it as UTF-8");
-    else if (const std::size_t mark = content.compare(0, 3, "\xef\xbb\xbf") == 0 ? 3 : 0;
-             extension == "csv")
-        readCsv(content.substr(mark), entries);
+    std::string content;
+    if (const std::string cause = readTextFile(file, content); !cause.empty())
+        entries.fail(0, cause);
+    else if (extension == "csv")
+        readTable(content, entries);
     else if (extension == "json")
-        readJson(content.substr(mark), entries);
+        readJson(content, entries);
     else
         entries.fail(0, "a table of labels is a .csv or a .json file");
     error = entries.error;

@@ -3,6 +3,7 @@
 
 #include <osgLabels/ChunkMesh.h>
 #include <osgLabels/LabelExtensions.h>
+#include <osgLabels/MapPass.h>
 #include <osgLabels/PrimitiveRun.h>
 
 #include <osg/GLExtensions>
@@ -76,9 +77,12 @@ osg::Matrixd inverseOf(const osg::Matrixd& modelview)
 
 } // namespace
 
-LabelPass::LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks)
+LabelPass::LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks,
+                     const LabelSettings& settings)
     : _resources(std::move(resources)), _picks(std::move(picks))
 {
+    if (_resources && _resources->map)
+        _map = std::make_unique<MapPass>(*_resources, settings);
 }
 
 LabelPass::~LabelPass()
@@ -97,6 +101,8 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     _target = osgMultiRender::DrawTarget::current(state);
     if (!_resources || !_resources->getError().empty())
         _reason = _resources ? _resources->getError() : "they are not shown";
+    else if (!_resources->hasSurfaceLabels())
+        _reason = "those of surfaces are off";
     else if (_objects.empty())
         _reason = "nothing labelled is in view";
     else if (_target.several)
@@ -104,11 +110,12 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     glGetIntegerv(GL_VIEWPORT, _viewport);
     if (_reason.empty() && (_viewport[2] <= 0 || _viewport[3] <= 0))
         _reason = "the viewport is empty";
+    _languageVersion = state.get<osg::GLExtensions>()->glslLanguageVersion;
+    _isPaged = _resources && _resources->buffers.isPaged(state);
+    if (_map)
+        _map->begin(renderInfo, frame.getStage().getCamera(), _viewport, _isPaged);
     if (!_reason.empty())
         return;
-    const auto* gl = state.get<osg::GLExtensions>();
-    _languageVersion = gl->glslLanguageVersion;
-    _isPaged = _resources->buffers.isPaged(state);
     const osg::Matrixd* view =
         const_cast<osgUtil::RenderStage&>(frame.getStage()).getInitialViewMatrix();
     const osg::Vec3d up = axisOf(_resources->settings.up);
@@ -188,6 +195,12 @@ bool LabelPass::isInView(const osgMultiRender::SurfaceState& state) const
 
 void LabelPass::end(osg::RenderInfo&) {}
 
+void LabelPass::drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame)
+{
+    if (_map)
+        _map->drawOccluders(renderInfo, frame);
+}
+
 const osg::StateSet* LabelPass::startRun()
 {
     _applied.clear();
@@ -238,6 +251,8 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
                       const osgUtil::RenderLeaf& leaf, std::uint32_t number)
 {
     const std::uint32_t bits = variant.getKey().output;
+    if (bits & MapOccluder)
+        _map->apply(*renderInfo.getState(), variant, leaf);
     if (!(bits & Labelled))
         return;
     // osg::Program trims "[0]" off the names of arrays.
@@ -299,14 +314,23 @@ bool LabelPass::diverts(const SurfaceItem& item) const
     return item.variant->getKey().output & Diverted;
 }
 
-void LabelPass::drawn(osg::RenderInfo&)
+void LabelPass::drawn(osg::RenderInfo& renderInfo)
 {
+    if (_map)
+        _map->draw(renderInfo);
+    for (Asked& asked : _asked)
+        if (asked.question && _map)
+            if (const std::uint32_t onTop =
+                    _map->pick(*renderInfo.getState(), asked.question->x, asked.question->y))
+                asked.identifier = onTop;
     answer();
 }
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
 {
     using Decision = osgMultiRender::PlanEntry::Decision;
+    if (_map)
+        _map->fillPlan(plan);
     if (!_reason.empty())
     {
         plan.entries.push_back({"labels", Decision::Dropped, _reason});

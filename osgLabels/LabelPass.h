@@ -13,11 +13,14 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
 namespace osgLabels
 {
+
+class MapPass;
 
 /// Bits of SurfaceKey::output.
 enum OutputBits : std::uint32_t
@@ -29,7 +32,8 @@ enum OutputBits : std::uint32_t
     Proportional = 32, ///< Letters have widths of their own.
     Outlined = 64,     ///< Letters have outlines.
     Textured = 128,    ///< The targets have texture coordinates.
-    TexCoords = 16,    ///< Texture coordinates may place the text: of the unit from bit 8.
+    // 12 to 15 are those of MapBits.
+    TexCoords = 16, ///< Texture coordinates may place the text: of the unit from bit 8.
     UnitShift = 8
 };
 
@@ -38,7 +42,8 @@ class LabelPass : public osgMultiRender::SurfacePass
 {
 public:
     /// Without resources labels are not shown.
-    LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks);
+    LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks,
+              const LabelSettings& settings);
     ~LabelPass() override;
 
     osgMultiRender::SurfaceRole getRole() const override
@@ -51,6 +56,7 @@ public:
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
     void end(osg::RenderInfo& renderInfo) override;
+    void drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame) override;
     bool diverts(const osgMultiRender::SurfaceItem& item) const override;
     void divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw) override;
     void drawn(osg::RenderInfo& renderInfo) override;
@@ -60,6 +66,10 @@ public:
     void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                const osgUtil::RenderLeaf& leaf, std::uint32_t number) override;
     void fillPlan(osgMultiRender::Plan& plan) const override;
+
+    /// Declares osgLabels_index, the record of the object that a fragment is of.
+    static void addIndex(const osgMultiRender::SurfaceKey& key,
+                         osgMultiRender::SurfaceSnippet& snippet);
 
 private:
     /// osgLabels_Frame of locate.glsl, and one float more to fill seven texels.
@@ -80,8 +90,6 @@ private:
 
     void addTexCoords(const osgMultiRender::SurfaceKey& key,
                       osgMultiRender::SurfaceSnippet& snippet) const;
-    static void addIndex(const osgMultiRender::SurfaceKey& key,
-                         osgMultiRender::SurfaceSnippet& snippet);
     void addLabel(const osgMultiRender::SurfaceKey& key,
                   osgMultiRender::SurfaceSnippet& snippet) const;
     static Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
@@ -94,7 +102,7 @@ private:
                      const osg::Viewport* viewport) const;
     void clear(osg::State& state) const;
     void findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
-                     const osg::StateSet* scope);
+                     const std::vector<const osgUtil::RenderLeaf*>& leaves);
     void addNumber(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
     void takeQuestions(osgUtil::CullVisitor& visitor);
     void answer();
@@ -106,7 +114,8 @@ private:
 
     const std::shared_ptr<LabelResources> _resources;
     const std::shared_ptr<LabelPicks> _picks;
-    std::string _reason; ///< Why there are no labels in this view; empty where there are.
+    std::string _reason; ///< Why no surface has a label in this view; empty where some have.
+    std::unique_ptr<MapPass> _map; ///< Null where the scene has no map labels.
     unsigned int _contextID = 0;
     float _languageVersion = 3.3f;
     bool _isPaged = false;

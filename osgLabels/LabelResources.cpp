@@ -49,6 +49,10 @@ float widestOutline(const LabelSettings& settings)
     float outline = 0.0f;
     for (const LabelStyle& style : settings.styles)
         outline = std::max(outline, style.outlineWidth);
+    // Of map labels behind something only outlines may be left.
+    if (settings.map != "off" || settings.mapClass.find(":outline") != std::string::npos ||
+        settings.mapAction == MapAction::Outline)
+        outline = std::max(outline, 0.06f);
     return outline;
 }
 
@@ -76,12 +80,14 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
     _atlas->setLegibleSize(settings.readable);
     const auto encodeText = [this](const std::string& text) { return encode(text); };
     const auto numberOfStyle = [this](const std::string& name)
-    { return styleOf(name).value_or(0); };
+    { return name.empty() ? 0u : styleOf(name).value_or(0); };
     batches.setSource(source, encodeText, numberOfStyle);
     batches.collect(group);
     collector = std::make_unique<LabelCollector>(table, source, encodeText, shared, numberOfStyle);
-    collector->collect(group);
+    if (hasSurfaceLabels())
+        collector->collect(group);
     fitNew();
+    map = std::make_unique<MapScene>(settings, _glyphs, numberOfStyle, batches, objects, group);
     if (settings.chunk)
         makeChunks(group);
 }
@@ -122,8 +128,15 @@ void LabelResources::fitNew()
 
 void LabelResources::makeChunks(osg::Group& group)
 {
-    Chunker chunker([&](const osg::NodePath& path) { return collector->getObject(group, path); });
+    std::vector<MapRecords::Chunked> chunked;
+    Chunker chunker(
+        [&](const osg::NodePath& path)
+        {
+            chunked.push_back({collector->getObject(group, path), path});
+            return chunked.back().object;
+        });
     Chunks chunks = chunker.chunk(group);
+    map->records.setChunked(std::move(chunked));
     for (const Chunks::Object& object : chunks.objects)
         objects.set(object.object,
                     recordOf(*object.geometry, object.localToChunk, settings.texCoord,
@@ -137,6 +150,17 @@ void LabelResources::update(osg::State& state, osg::StateSet& into)
 {
     into.merge(*buffers.update(state));
     into.merge(*objects.update(state));
+    updateGlyphs(into);
+}
+
+bool LabelResources::hasSurfaceLabels() const
+{
+    return settings.surface == SurfaceLabels::On ||
+           (settings.surface == SurfaceLabels::Auto && settings.map == "off");
+}
+
+void LabelResources::updateGlyphs(osg::StateSet& into)
+{
     std::lock_guard<std::mutex> lock(_atlasMutex);
     _atlas->update();
     _atlas->apply(into, GlyphsUnit);
@@ -161,6 +185,8 @@ std::string LabelResources::getDefines(bool isPaged, std::uint32_t shapes) const
 
 bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
 {
+    if (identifier >= MapScene::FirstIdentifier)
+        return collector && map->texts.setText(identifier - MapScene::FirstIdentifier, text);
     return collector && (batches.setText(identifier, text) || collector->setText(identifier, text));
 }
 
@@ -168,6 +194,8 @@ std::string LabelResources::getText(std::uint32_t identifier) const
 {
     if (!collector)
         return {};
+    if (identifier >= MapScene::FirstIdentifier)
+        return map->texts.getText(identifier - MapScene::FirstIdentifier);
     const LabelBatches::Found found = batches.find(identifier);
     if (!found.batch)
         return collector->getText(identifier);
@@ -233,6 +261,8 @@ void LabelResources::releaseGLObjects(osg::State* state)
     objects.releaseGLObjects(state);
     targets.releaseGLObjects(state);
     programs.releaseGLObjects(state);
+    if (map)
+        map->releaseGLObjects(state);
     screen->releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_atlasMutex);
     osg::ref_ptr<osg::StateSet> textures = new osg::StateSet;

@@ -12,6 +12,28 @@
 namespace osgLabels
 {
 
+namespace
+{
+
+/// Whether settings differ in nothing that labels are collected by.
+bool isKept(const LabelSettings& was, LabelSettings is)
+{
+    is.mapSize = was.mapSize;
+    is.mapWorld = was.mapWorld;
+    is.mapOffset = was.mapOffset;
+    is.mapDepth = was.mapDepth;
+    is.mapAction = was.mapAction;
+    is.mapTest = was.mapTest;
+    is.mapLeader = was.mapLeader;
+    is.mapFade = was.mapFade;
+    is.mapColor = was.mapColor;
+    is.declutter = was.declutter;
+    is.keys = was.keys;
+    return formatLabelOptions(is) == formatLabelOptions(was);
+}
+
+} // namespace
+
 LabelScene::LabelScene()
 {
     // So that parents lead event visitors here; not for children, which have their own.
@@ -73,8 +95,9 @@ std::optional<LabelScene::Picked> LabelScene::takePicked(PickAsker asker)
 void LabelScene::setSettings(const LabelSettings& settings)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    if (!isKept(_settings, settings))
+        _resources.reset();
     _settings = settings;
-    _resources.reset();
 }
 
 void LabelScene::setSettingsText(const std::string& text)
@@ -128,11 +151,13 @@ void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
         resources->getChunks()->accept(visitor);
     else
         osgMultiRender::SurfaceGroup::cullSubgraph(visitor);
+    if (resources && resources->map && resources->map->getFileLabels())
+        resources->map->getFileLabels()->accept(visitor);
 }
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
-    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr, _picks);
+    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr, _picks, _settings);
 }
 
 } // namespace osgLabels

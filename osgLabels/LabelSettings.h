@@ -43,9 +43,46 @@ struct LabelStyle
 /// Whether a style may be called so: letters, digits, '_', '-', '.' and what is beyond ASCII.
 OSGLABELS_EXPORT bool isStyleName(const std::string& name);
 
+/// What says how far away a map label is when something else may hide it.
+enum class MapDepth
+{
+    Anchor,
+    Back ///< Just before the back of its own feature, pixel by pixel; else its anchor.
+};
+
+/// Of what of a map label it is asked whether something hides it.
+enum class MapTest
+{
+    Pixel,  ///< Each pixel.
+    Anchor, ///< Its anchor, for all of it.
+    Share   ///< All of it, by the share that is visible.
+};
+
+/// What becomes of the pixels of a map label that something else stands before. Of several
+/// things the first action of these counts.
+enum class MapAction : unsigned int
+{
+    Hide,
+    Outline, ///< The edges of its letters are left.
+    Recolor, ///< Letters take LabelSettings::mapColor.
+    Fade,    ///< Drawn with LabelSettings::mapFade of its opacity.
+    Ignore   ///< As if nothing stood there.
+};
+constexpr unsigned int NumMapActions = 4; ///< Those that change something.
+
+enum class SurfaceLabels
+{
+    Auto, ///< Where no map is given.
+    On,
+    Off
+};
+
 /// All knobs of a LabelScene; see its setters.
 struct LabelSettings
 {
+    static constexpr double MapPadX = 0.3;  ///< em of a plate beside the text,
+    static constexpr double MapPadY = 0.08; ///< above and below it.
+
     std::string source = "name";
     std::string match;
     std::string font;
@@ -57,6 +94,20 @@ struct LabelSettings
     int texCoord = -1;
     bool chunk = false;
     bool keys = true;
+    SurfaceLabels surface = SurfaceLabels::Auto;
+    // Of map labels.
+    std::string map = "off"; ///< "off", "values" or a file.
+    float mapSize = 14.0f;   ///< Pixels an em.
+    float mapWorld = 0.0f;   ///< Units an em; 0: mapSize counts.
+    float mapOffset = 0.0f;  ///< Units towards the eye.
+    MapDepth mapDepth = MapDepth::Anchor;
+    MapAction mapAction = MapAction::Hide;
+    std::string mapClass; ///< See MapClasses; mapAction for what it does not name.
+    MapTest mapTest = MapTest::Pixel;
+    float mapLeader = 0.0f; ///< Pixels.
+    float mapFade = 0.25f;  ///< Opacity.
+    osg::Vec4 mapColor{128.0f / 255.0f, 128.0f / 255.0f, 128.0f / 255.0f, 1.0f};
+    bool declutter = true;
     /// The first is that of all objects without one of their own; at most LabelStyle::MaxStyles.
     std::vector<LabelStyle> styles{1};
 

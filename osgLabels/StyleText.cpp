@@ -11,12 +11,6 @@ namespace osgLabels
 using osgMultiRender::formatNumber;
 using osgMultiRender::parseNumber;
 
-namespace
-{
-
-using Part = osgMultiRender::Option<LabelStyle>;
-
-/// "#rrggbb" or "#rrggbbaa".
 bool parseColor(const std::string& text, osg::Vec4& color)
 {
     if ((text.size() != 7 && text.size() != 9) || text[0] != '#')
@@ -33,7 +27,7 @@ bool parseColor(const std::string& text, osg::Vec4& color)
     return true;
 }
 
-std::string toText(const osg::Vec4& color)
+std::string formatColor(const osg::Vec4& color)
 {
     static const char digits[] = "0123456789abcdef";
     std::string text = "#";
@@ -44,6 +38,11 @@ std::string toText(const osg::Vec4& color)
     }
     return text;
 }
+
+namespace
+{
+
+using Part = osgMultiRender::Option<LabelStyle>;
 
 Part inkPart()
 {
@@ -59,7 +58,7 @@ Part inkPart()
             [](const LabelStyle& style)
             {
                 const osg::Vec4& ink = style.ink;
-                return ink.a() == 0.0f ? std::string("auto") : toText(ink);
+                return ink.a() == 0.0f ? std::string("auto") : formatColor(ink);
             }};
 }
 
@@ -82,7 +81,7 @@ Part platePart()
                 const osg::Vec4& plate = style.plate;
                 return plate.a() < 0.0f    ? std::string("auto")
                        : plate.a() == 0.0f ? std::string("off")
-                                           : toText(plate);
+                                           : formatColor(plate);
             }};
 }
 
@@ -108,8 +107,8 @@ Part outlinePart()
             [](const LabelStyle& style)
             {
                 return style.outlineWidth == 0.0f ? std::string("off")
-                                                  : toText(osg::Vec4(style.outline, 1.0f)) + ":" +
-                                                        formatNumber(style.outlineWidth);
+                                                  : formatColor(osg::Vec4(style.outline, 1.0f)) +
+                                                        ":" + formatNumber(style.outlineWidth);
             }};
 }
 

@@ -11,6 +11,11 @@
 namespace osgLabels
 {
 
+/// Takes "#rrggbb" or "#rrggbbaa"; false for any other text.
+bool parseColor(const std::string& text, osg::Vec4& color);
+/// The text that parseColor() would take for a colour, to 8 bits a channel.
+std::string formatColor(const osg::Vec4& color);
+
 /// What a style has, as text: ink, plate, outline, in this order.
 const std::vector<osgMultiRender::Option<LabelStyle>>& styleOptions();
 

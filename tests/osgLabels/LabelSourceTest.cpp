@@ -292,6 +292,10 @@ TEST_F(LabelFileTest, brokenTablesNameFileLineCauseAndRemedy)
                                            "a\0",
                                            4)),
               "t.csv: is UTF-16; save it as UTF-8");
+    TextByName texts;
+    std::string error;
+    EXPECT_FALSE(readLabelFile(folder.file(""), texts, error));
+    EXPECT_EQ(error, folder.file("") + ": cannot be read; does it exist?");
     EXPECT_EQ(errorOf("t.txt", "a,1\n"), "t.txt: a table of labels is a .csv or a .json file");
     EXPECT_EQ(errorOf("t.json", "{\"a\": 1,\n \"b\" 2}").substr(0, 18), "t.json:2: no JSON:");
     EXPECT_EQ(errorOf("t.json", "{\"a\": [1]}"),
