@@ -94,8 +94,8 @@ const std::vector<LabelKey>& labelKeys()
     static const std::vector<LabelKey> keys = {
         {'I', "Prints identifier, text and nodes of the object under the mouse"},
         {'L', "Labels, shown or not"},
-        {'O', "Map labels behind something: hidden there, outlined, recoloured, faded, shown"},
-        {'U', "Map labels are hidden by pixels, by their anchors, by the share that is visible"},
+        {'O', "Map labels behind something: hidden, outlined, grey, faded, shown"},
+        {'U', "Map labels are hidden by pixels, by anchors, by visible shares"},
         {'C', "Map labels make way for more important ones, or not"},
     };
     return keys;

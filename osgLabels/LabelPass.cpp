@@ -305,7 +305,7 @@ LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32
     if (dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
         return {0, GLint(number)};
     if (ChunkMesh::isOne(*leaf._drawable))
-        return {0, GLint(number) - 1};
+        return {0, -GLint(number)}; // see addIndex()
     return {GLint(number), 0};
 }
 

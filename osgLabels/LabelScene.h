@@ -27,7 +27,11 @@ class LabelResources;
 /// see SurfaceState::isCopyable(); others get their label while they are drawn, in a bin sorted by
 /// state after those. Points carry none. Where nothing labelled is in
 /// view leaves are drawn as without the group. Prado, Raposo, Real-Time Label Visualization in
-/// Massive CAD Models, 2013. Requires GL 3.3 compatibility.
+/// Massive CAD Models, 2013.
+///
+/// MapLabels below it face the viewer, hidden by what stands before them and never by their own
+/// feature: a table or user values may have more, see LabelSettings::map. Kontkanen, Schpok,
+/// Occluding 3D Map Labels Using Back Faces, 2016. Requires GL 3.3 compatibility.
 class OSGLABELS_EXPORT LabelScene : public osgMultiRender::SurfaceGroup
 {
 public:
@@ -53,11 +57,13 @@ public:
     {
         std::uint32_t identifier = 0; ///< 0: nothing labelled.
         std::string text;
-        std::string path; ///< Names of the nodes from this one down, "/scene/pump/P-101".
+        /// Names of the nodes from this one down, "/scene/pump/P-101"; empty for a map label.
+        std::string path;
     };
     /// Asks the next picture of the scene that a view shows, or the camera's own: one in the scene
     /// that renders to a texture answers only where it is named. `x` and `y` from -1 to 1 from the
-    /// lower left corner of the picture. Opaque surfaces count.
+    /// lower left corner of the picture. A map label that is seen there is on top of all; of
+    /// surfaces the opaque ones count.
     void pick(double x, double y, const osg::Camera* camera = nullptr,
               PickAsker asker = PickAsker::Application);
     /// The answer to the last pick() of the asker, once; none before it is there. Not while another

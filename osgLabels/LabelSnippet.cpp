@@ -48,7 +48,10 @@ void LabelPass::addIndex(const SurfaceKey& key, SurfaceSnippet& snippet)
                       "uniform int osgLabels_recordBase;\n"
                       "flat out int osgLabels_index;\n";
     snippet.vertexStatements +=
-        "    osgLabels_index = osgLabels_object + gl_InstanceID + osgLabels_recordBase;\n";
+        "    osgLabels_index = osgLabels_object + gl_InstanceID + osgLabels_recordBase;\n"
+        "    if (osgLabels_recordBase < 0) // of a chunk, where 0 is none\n"
+        "        osgLabels_index = osgLabels_object == 0 ? 0 : osgLabels_object - 1 - "
+        "osgLabels_recordBase;\n";
     snippet.fragment += "flat in int osgLabels_index;\n";
 }
 

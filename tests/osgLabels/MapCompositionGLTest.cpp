@@ -148,6 +148,23 @@ TEST_F(MapComposition, shadowsInEitherOrderShowTheSame)
     EXPECT_TRUE(labelScene::areAlike(a, b, "map-shadows"));
 }
 
+TEST_F(MapComposition, transparentSurfacesUnderShadowsHideFromHalfOfTheirOpacityOn)
+{
+    for (const float alpha : {0.3f, 0.7f})
+    {
+        osg::ref_ptr<osgShadowVolume::ShadowedScene> lit = new osgShadowVolume::ShadowedScene;
+        const auto glass =
+            sheet("glass", {-1, -1, -1}, {2, 0, 0}, {0, 0, 2}, {0.5f, 0.9f, 0.9f, alpha});
+        glass->getOrCreateStateSet()->setMode(GL_BLEND, osg::StateAttribute::ON);
+        glass->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
+        lit->addChild(glass);
+        lit->addChild(middle());
+        EXPECT_EQ(redPixels(*render(*scene({lit, label("text", {0, 0, 0}, "middle")}))) > 0,
+                  alpha < 0.5f)
+            << alpha;
+    }
+}
+
 TEST_F(MapComposition, viewportsBesideEachOtherHaveTargetsOfTheirOwn)
 {
     const auto top = scene({before(), label("half of it", {0, 0, 0})});
