@@ -52,7 +52,16 @@ std::size_t placeIn(Vector& all, std::vector<Index>& free)
 LabelCollector::LabelCollector(std::shared_ptr<LabelTable> table,
                                std::shared_ptr<const LabelSource> source, Encode encode,
                                std::uint32_t firstIdentifier)
-    : _table(std::move(table)), _source(std::move(source)), _encode(std::move(encode)),
+    : LabelCollector(
+          std::move(table),
+          [source = std::move(source)](const osg::NodePath& path) { return source->find(path); },
+          std::move(encode), firstIdentifier)
+{
+}
+
+LabelCollector::LabelCollector(std::shared_ptr<LabelTable> table, Find find, Encode encode,
+                               std::uint32_t firstIdentifier)
+    : _table(std::move(table)), _find(std::move(find)), _encode(std::move(encode)),
       _offset(firstIdentifier - 1), _instances(1), _objects(1), _labels(1)
 {
 }
@@ -144,7 +153,7 @@ std::uint32_t LabelCollector::addObject(const osg::Drawable& drawable, const osg
 {
     // The group's own name is not that of an object in it.
     const osg::NodePath below(path.begin() + 1, path.end());
-    const auto found = _source->find(below);
+    const auto found = _find(below);
     if (!found)
         return 0;
     const auto object = static_cast<std::uint32_t>(placeIn(_objects, _freeObjects));

@@ -36,11 +36,16 @@ class OSGLABELS_EXPORT LabelCollector
 {
 public:
     using Encode = std::function<LabelTable::Codes(const std::string& utf8)>;
+    /// The text of the last node of a path below the group; none where it has no label.
+    using Find = std::function<std::optional<LabelSource::Found>(const osg::NodePath& path)>;
 
     /// Texts become codes by `encode`, which is called under the collector's lock. Identifiers
     /// count from `firstIdentifier`.
     LabelCollector(std::shared_ptr<LabelTable> table, std::shared_ptr<const LabelSource> source,
                    Encode encode, std::uint32_t firstIdentifier = 1);
+    /// `find` is called under the collector's lock.
+    LabelCollector(std::shared_ptr<LabelTable> table, Find find, Encode encode,
+                   std::uint32_t firstIdentifier = 1);
     ~LabelCollector();
     LabelCollector(const LabelCollector&) = delete;
     LabelCollector& operator=(const LabelCollector&) = delete;
@@ -135,7 +140,7 @@ private:
     bool isCurrent(const osg::Group& group, const Entry& entry, std::size_t mostPaths) const;
 
     const std::shared_ptr<LabelTable> _table;
-    const std::shared_ptr<const LabelSource> _source;
+    const Find _find;
     const Encode _encode;
     const std::uint32_t _offset; ///< From an index in _labels to an identifier.
 

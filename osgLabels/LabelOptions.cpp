@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelOptions.h>
 
+#include <osgLabels/MapClasses.h>
+
 #include <osgMultiRender/PseudoLoader.h>
 
 #include <algorithm>
@@ -167,6 +169,36 @@ LabelOption matchOption()
             [](const LabelSettings& settings) { return settings.match; }};
 }
 
+LabelOption classOption()
+{
+    return {"mapclass", "<regular expression>:hide|outline|recolor|fade|ignore,...",
+            "What happens to a map label that something stands before, by the name or the user "
+            "value \"labelClass\" of that; hide for all others",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                MapClasses check;
+                std::string error;
+                if (check.parse(text, error))
+                    settings.mapClass = text;
+                return error;
+            },
+            [](const LabelSettings& settings) { return settings.mapClass; }};
+}
+
+LabelOption colorOption()
+{
+    return {"mapcolor", "<#rrggbb>", "Colour of letters that are recoloured",
+            [](LabelSettings& settings, const std::string& text) -> std::string
+            {
+                osg::Vec4 color;
+                if (!parseColor(text, color) || color.a() < 1.0f)
+                    return "'" + text + "' is no colour #rrggbb";
+                settings.mapColor = color;
+                return {};
+            },
+            [](const LabelSettings& settings) { return toText(settings.mapColor); }};
+}
+
 LabelOption text(const char* name, std::string LabelSettings::*member, const char* values,
                  const char* help)
 {
@@ -216,6 +248,36 @@ const std::vector<LabelOption>& labelOptions()
         inkOption(),
         plateOption(),
         outlineOption(),
+        choice<SurfaceLabels>(
+            "surface", &LabelSettings::surface,
+            {{"auto", SurfaceLabels::Auto}, {"on", SurfaceLabels::On}, {"off", SurfaceLabels::Off}},
+            "Labels on the surfaces of objects; auto: where no map is given"),
+        text("map", &LabelSettings::map, "off|values|<file.csv>",
+             "Labels that face the viewer: of nodes with a user value \"label\", and of a table "
+             "with "
+             "x, y, z, text, priority, style and feature"),
+        number("mapsize", &LabelSettings::mapSize, 1.0f, 1000.0f,
+               "Height of a line of map labels in pixels"),
+        number("mapworld", &LabelSettings::mapWorld, 0.0f, 1e9f,
+               "Height of a line in units of the scene; 0: mapsize counts"),
+        number("mapoffset", &LabelSettings::mapOffset, 0.0f, 1e9f,
+               "Units by which map labels are nearer to the eye than their anchors"),
+        choice<MapDepth>("mapdepth", &LabelSettings::mapDepth,
+                         {{"anchor", MapDepth::Anchor}, {"back", MapDepth::Back}},
+                         "How far away a map label is: as its anchor, or just before the back of "
+                         "its own feature"),
+        classOption(),
+        choice<MapTest>(
+            "maptest", &LabelSettings::mapTest,
+            {{"pixel", MapTest::Pixel}, {"anchor", MapTest::Anchor}, {"share", MapTest::Share}},
+            "What is asked whether something stands before it: each pixel of a map "
+            "label; its anchor, for all of it; how much of it is visible"),
+        number("mapleader", &LabelSettings::mapLeader, 0.0f, 1000.0f,
+               "Pixels of a line from the anchor up to the label"),
+        number("mapfade", &LabelSettings::mapFade, 0.0f, 1.0f, "Opacity of what is faded"),
+        colorOption(),
+        flag("declutter", &LabelSettings::declutter,
+             "Of map labels that overlap only the most important one is shown"),
         flag("keys", &LabelSettings::keys, "Answers to keys in osgviewer"),
     };
     return options;

@@ -3,6 +3,7 @@
 
 #include <osgLabels/ChunkMesh.h>
 #include <osgLabels/LabelExtensions.h>
+#include <osgLabels/MapPass.h>
 #include <osgLabels/PrimitiveRun.h>
 
 #include <osg/GLExtensions>
@@ -86,6 +87,8 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 
 LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
 {
+    if (_resources && _resources->map)
+        _map = std::make_unique<MapPass>(*_resources);
 }
 
 LabelPass::~LabelPass()
@@ -98,20 +101,20 @@ void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup
 {
     if (!_resources || !_resources->collector)
         return;
-    bool isEmpty = true;
+    std::vector<const osgUtil::RenderLeaf*> leaves;
+    forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
+                [&](const osgUtil::RenderLeaf& leaf) { leaves.push_back(&leaf); });
+    if (_resources->hasSurfaceLabels())
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
-        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
-                    [&](const osgUtil::RenderLeaf& leaf)
-                    {
-                        isEmpty = false;
-                        const std::uint32_t object = objectOf(leaf, view);
-                        if (object)
-                            _objects.emplace(&leaf, object);
-                    });
+        for (const osgUtil::RenderLeaf* leaf : leaves)
+            if (const std::uint32_t object = objectOf(*leaf, view))
+                _objects.emplace(leaf, object);
     }
+    if (_map)
+        _map->cull(visitor, group, leaves);
     _resources->fitNew();
-    if (isEmpty && _resources->pick.takeQuestion()) // nothing will be drawn
+    if (leaves.empty() && _resources->pick.takeQuestion()) // nothing will be drawn
         _resources->pick.answer(0);
 }
 
@@ -136,6 +139,8 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     _target = osgMultiRender::DrawTarget::current(state);
     if (!_resources || !_resources->getError().empty())
         _reason = _resources ? _resources->getError() : "they are not shown";
+    else if (!_resources->hasSurfaceLabels())
+        _reason = "those of surfaces are off";
     else if (_objects.empty())
         _reason = "nothing labelled is in view";
     else if (_target.several)
@@ -143,11 +148,12 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     glGetIntegerv(GL_VIEWPORT, _viewport);
     if (_reason.empty() && (_viewport[2] <= 0 || _viewport[3] <= 0))
         _reason = "the viewport is empty";
+    _languageVersion = state.get<osg::GLExtensions>()->glslLanguageVersion;
+    _isPaged = _resources && _resources->buffers.isPaged(state);
+    if (_map)
+        _map->begin(renderInfo, _viewport, _languageVersion, _isPaged);
     if (!_reason.empty())
         return;
-    const auto* gl = state.get<osg::GLExtensions>();
-    _languageVersion = gl->glslLanguageVersion;
-    _isPaged = _resources->buffers.isPaged(state);
     const osg::Matrixd* view =
         const_cast<osgUtil::RenderStage&>(frame.getStage()).getInitialViewMatrix();
     const osg::Vec3d up = axisOf(_resources->settings.up);
@@ -228,6 +234,12 @@ bool LabelPass::isInView(const osgMultiRender::SurfaceState& state) const
 
 void LabelPass::end(osg::RenderInfo&) {}
 
+void LabelPass::drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame)
+{
+    if (_map)
+        _map->drawOccluders(renderInfo, frame);
+}
+
 const osg::StateSet* LabelPass::startRun()
 {
     _applied.clear();
@@ -278,6 +290,8 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
                       const osgUtil::RenderLeaf& leaf, std::uint32_t number)
 {
     const std::uint32_t bits = variant.getKey().output;
+    if (bits & MapOccluder)
+        _map->apply(*renderInfo.getState(), leaf);
     if (!(bits & Labelled))
         return;
     // osg::Program trims "[0]" off the names of arrays.
@@ -339,18 +353,24 @@ bool LabelPass::diverts(const SurfaceItem& item) const
     return item.variant->getKey().output & Diverted;
 }
 
-void LabelPass::drawn(osg::RenderInfo&)
+void LabelPass::drawn(osg::RenderInfo& renderInfo)
 {
+    if (_map)
+        _map->draw(renderInfo);
     // Where nothing labelled is in view nothing is under the point either.
     if (_resources && !_asked && !_reason.empty())
         _asked = _resources->pick.takeQuestion();
-    if (_asked)
-        _resources->pick.answer(_picked);
+    if (!_asked)
+        return;
+    const std::uint32_t onTop = _map ? _map->pick(*renderInfo.getState(), _asked->x, _asked->y) : 0;
+    _resources->pick.answer(onTop ? onTop : _picked);
 }
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const
 {
     using Decision = osgMultiRender::PlanEntry::Decision;
+    if (_map)
+        _map->fillPlan(plan);
     if (!_reason.empty())
     {
         plan.entries.push_back({"labels", Decision::Dropped, _reason});

@@ -12,11 +12,14 @@
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
 namespace osgLabels
 {
+
+class MapPass;
 
 /// Bits of SurfaceKey::output.
 enum OutputBits : std::uint32_t
@@ -28,7 +31,8 @@ enum OutputBits : std::uint32_t
     Proportional = 32, ///< Letters have widths of their own.
     Outlined = 64,     ///< Letters have outlines.
     Textured = 128,    ///< The targets have texture coordinates.
-    TexCoords = 16,    ///< Texture coordinates may place the text: of the unit from bit 8.
+    // 12 to 15 are those of MapBits.
+    TexCoords = 16, ///< Texture coordinates may place the text: of the unit from bit 8.
     UnitShift = 8
 };
 
@@ -49,6 +53,7 @@ public:
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
     void end(osg::RenderInfo& renderInfo) override;
+    void drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame) override;
     bool diverts(const osgMultiRender::SurfaceItem& item) const override;
     void divert(osg::RenderInfo& renderInfo, const std::function<void()>& draw) override;
     void drawn(osg::RenderInfo& renderInfo) override;
@@ -102,7 +107,8 @@ private:
     void makeUnder(osg::State& state);
 
     const std::shared_ptr<LabelResources> _resources;
-    std::string _reason; ///< Why there are no labels in this view; empty where there are.
+    std::string _reason; ///< Why no surface has a label in this view; empty where some have.
+    std::unique_ptr<MapPass> _map; ///< Null where the scene has no map labels.
     unsigned int _contextID = 0;
     float _languageVersion = 3.3f;
     bool _isPaged = false;

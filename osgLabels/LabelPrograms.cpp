@@ -17,26 +17,29 @@ namespace osgLabels
 namespace
 {
 
-/// Text of a shader file: found on OSG_FILE_PATH, else the built-in one.
-std::string textOf(osg::Shader::Type type, const std::string& file, const char* builtIn)
-{
-    osg::ref_ptr<osg::Shader> shader =
-        osgDB::readRefShaderFileWithFallback(type, "osgLabels/" + file, builtIn);
-    return shader ? shader->getShaderSource() : std::string(builtIn);
-}
-
 std::string fragmentText(const std::string& file, const char* builtIn)
 {
-    return textOf(osg::Shader::FRAGMENT, file, builtIn);
+    return LabelSources::file(osg::Shader::FRAGMENT, file, builtIn);
 }
 
 } // namespace
 
-std::string LabelSources::locate(const std::string& defines)
+std::string LabelSources::file(osg::Shader::Type type, const std::string& name, const char* builtIn)
+{
+    osg::ref_ptr<osg::Shader> shader =
+        osgDB::readRefShaderFileWithFallback(type, "osgLabels/" + name, builtIn);
+    return shader ? shader->getShaderSource() : std::string(builtIn);
+}
+
+std::string LabelSources::text(const std::string& defines)
 {
     return defines + fragmentText("labelTable.glsl", shaders::labelTable_glsl) +
-           fragmentText("coverage.glsl", shaders::coverage_glsl) + placementSource() +
-           fragmentText("locate.glsl", shaders::locate_glsl);
+           fragmentText("coverage.glsl", shaders::coverage_glsl);
+}
+
+std::string LabelSources::locate(const std::string& defines)
+{
+    return text(defines) + placementSource() + fragmentText("locate.glsl", shaders::locate_glsl);
 }
 
 std::string LabelSources::surface()
@@ -67,9 +70,9 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
     const std::string version = osgMultiRender::glslVersionLine(languageVersion);
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setName("osgLabels second pass");
-    program->addShader(
-        new osg::Shader(osg::Shader::VERTEX, version + textOf(osg::Shader::VERTEX, "screen.vert",
-                                                              shaders::screen_vert)));
+    program->addShader(new osg::Shader(
+        osg::Shader::VERTEX,
+        version + LabelSources::file(osg::Shader::VERTEX, "screen.vert", shaders::screen_vert)));
     program->addShader(new osg::Shader(
         osg::Shader::FRAGMENT, version + "#define OSGLABELS_SAMPLES " + std::to_string(samples) +
                                    "\n" + LabelSources::locate(defines) + LabelSources::ink() +

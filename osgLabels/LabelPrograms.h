@@ -24,6 +24,10 @@ struct LabelSources
     static std::string direct();
     /// Declares osgLabels_over(): the colour of a surface with its label.
     static std::string ink();
+    /// Declares the label table and osgLabels_inkAndOutline().
+    static std::string text(const std::string& defines);
+    /// Text of a shader file: found on OSG_FILE_PATH, else the built-in one.
+    static std::string file(osg::Shader::Type type, const std::string& name, const char* builtIn);
 };
 
 /// The programs of the second pass. Thread safe.

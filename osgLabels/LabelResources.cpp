@@ -46,6 +46,9 @@ float widestOutline(const LabelSettings& settings)
     float outline = 0.0f;
     for (const LabelStyle& style : settings.styles)
         outline = std::max(outline, style.outlineWidth);
+    // Of map labels behind something only outlines may be left.
+    if (settings.mapClass.find(":outline") != std::string::npos)
+        outline = std::max(outline, 0.06f);
     return outline;
 }
 
@@ -77,8 +80,10 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
                         { table->setCodes(identifier, encode(text)); });
     collector = std::make_unique<LabelCollector>(
         table, source, [this](const std::string& text) { return encode(text); }, next);
-    collector->collect(group);
+    if (hasSurfaceLabels())
+        collector->collect(group);
     fitNew();
+    map = std::make_unique<MapScene>(settings, _glyphs, group);
     if (settings.chunk)
         makeChunks(group);
 }
@@ -126,6 +131,17 @@ void LabelResources::update(osg::State& state, osg::StateSet& into)
 {
     into.merge(*buffers.update(state));
     into.merge(*objects.update(state));
+    updateGlyphs(into);
+}
+
+bool LabelResources::hasSurfaceLabels() const
+{
+    return settings.surface == SurfaceLabels::On ||
+           (settings.surface == SurfaceLabels::Auto && settings.map == "off");
+}
+
+void LabelResources::updateGlyphs(osg::StateSet& into)
+{
     std::lock_guard<std::mutex> lock(_atlasMutex);
     _atlas->update();
     _atlas->apply(into, GlyphsUnit);
@@ -152,6 +168,8 @@ bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
 {
     if (!collector)
         return false;
+    if (identifier >= MapScene::FirstIdentifier)
+        return map->texts.setText(identifier - MapScene::FirstIdentifier, text);
     if (batches.find(identifier).batch)
         return table->setCodes(identifier, encode(text));
     return collector->setText(identifier, text);
@@ -161,6 +179,8 @@ std::string LabelResources::getText(std::uint32_t identifier) const
 {
     if (!collector)
         return {};
+    if (identifier >= MapScene::FirstIdentifier)
+        return map->texts.getText(identifier - MapScene::FirstIdentifier);
     const LabelBatches::Found found = batches.find(identifier);
     return found.batch ? found.batch->getObjectName(found.object) : collector->getText(identifier);
 }
@@ -188,6 +208,13 @@ void LabelResources::releaseGLObjects(osg::State* state)
     objects.releaseGLObjects(state);
     targets.releaseGLObjects(state);
     programs.releaseGLObjects(state);
+    if (map)
+    {
+        map->buffers.releaseGLObjects(state);
+        map->targets.releaseGLObjects(state);
+        map->quads.releaseGLObjects(state);
+        map->programs.releaseGLObjects(state);
+    }
     screen->releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_atlasMutex);
     osg::ref_ptr<osg::StateSet> textures = new osg::StateSet;

@@ -12,6 +12,7 @@
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTable.h>
 #include <osgLabels/LabelTargets.h>
+#include <osgLabels/MapScene.h>
 
 #include <osgMultiRender/ScreenTriangle.h>
 #include <osgMultiRender/TargetPool.h>
@@ -35,6 +36,10 @@ public:
     void fitNew();
     /// Texts, glyphs and records on the GPU, as they are now; for the current context.
     void update(osg::State& state, osg::StateSet& into);
+    /// Of these the glyphs alone.
+    void updateGlyphs(osg::StateSet& into);
+    /// Whether objects have labels on their surfaces.
+    bool hasSurfaceLabels() const;
 
     /// What shaders depend on, as GLSL. `shapes`: bits of those that have to be known.
     std::string getDefines(bool isPaged, std::uint32_t shapes) const;
@@ -57,6 +62,7 @@ public:
     LabelBatches batches;
     LabelObjects objects{batches};
     std::unique_ptr<LabelCollector> collector; ///< Null where there is an error.
+    std::unique_ptr<MapScene> map;             ///< Likewise.
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;
     LabelPick pick;

@@ -33,9 +33,34 @@ struct LabelStyle
     float outlineWidth = 0.0f; ///< em; 0: none.
 };
 
+/// What says how far away a map label is when something else may hide it.
+enum class MapDepth
+{
+    Anchor,
+    Back ///< Just before the back of its own feature, pixel by pixel; else its anchor.
+};
+
+/// Of what of a map label it is asked whether something hides it.
+enum class MapTest
+{
+    Pixel,  ///< Each pixel.
+    Anchor, ///< Its anchor, for all of it.
+    Share   ///< All of it, by the share that is visible.
+};
+
+enum class SurfaceLabels
+{
+    Auto, ///< Where no map is given.
+    On,
+    Off
+};
+
 /// All knobs of a LabelScene; see its setters.
 struct LabelSettings
 {
+    static constexpr double MapPadX = 0.3;  ///< em of a plate beside the text,
+    static constexpr double MapPadY = 0.08; ///< above and below it.
+
     std::string source = "name";
     std::string match;
     std::string font;
@@ -47,6 +72,18 @@ struct LabelSettings
     int texCoord = -1;
     bool chunk = false;
     bool keys = true;
+    SurfaceLabels surface = SurfaceLabels::Auto;
+    std::string map = "off"; ///< "off", "values" or a file.
+    float mapSize = 14.0f;   ///< Pixels an em.
+    float mapWorld = 0.0f;   ///< Units an em; 0: mapSize counts.
+    float mapOffset = 0.0f;  ///< Units towards the eye.
+    MapDepth mapDepth = MapDepth::Anchor;
+    std::string mapClass; ///< See MapClasses.
+    MapTest mapTest = MapTest::Pixel;
+    float mapLeader = 0.0f; ///< Pixels.
+    float mapFade = 0.25f;  ///< Opacity.
+    osg::Vec4 mapColor{128.0f / 255.0f, 128.0f / 255.0f, 128.0f / 255.0f, 1.0f};
+    bool declutter = true;
     std::vector<LabelStyle> styles{1};
 };
 

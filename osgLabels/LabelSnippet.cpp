@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What LabelPass adds to the programs of the leaves.
 #include <osgLabels/LabelPass.h>
+#include <osgLabels/MapPass.h>
 
 namespace osgLabels
 {
@@ -10,6 +11,8 @@ using osgMultiRender::SurfaceSnippet;
 
 SurfaceSnippet LabelPass::makeSnippet(const SurfaceKey& key) const
 {
+    if (key.output & MapOccluder)
+        return MapPass::makeSnippet(key);
     SurfaceSnippet snippet;
     const bool diverted = key.output & Diverted;
     if (diverted)

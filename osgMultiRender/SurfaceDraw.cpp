@@ -8,6 +8,9 @@
 #include <osg/Notify>
 #include <osg/Timer>
 
+#include <algorithm>
+#include <functional>
+
 namespace osgMultiRender
 {
 
@@ -98,6 +101,43 @@ void SurfaceFrame::drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet
     const osg::ref_ptr<osg::StateSet> withoutProgram = new osg::StateSet(over);
     withoutProgram->removeAttribute(osg::StateAttribute::PROGRAM);
     drawUnder(*withoutProgram, instanced);
+}
+
+std::size_t SurfaceFrame::drawAs(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+                                 const std::function<bool(const SurfaceItem&, SurfaceKey&)>& rekey)
+{
+    std::vector<SurfaceItem> items;
+    std::size_t refused = 0;
+    forEachItem(
+        [&](const SurfaceItem& item)
+        {
+            const auto surface = _surfaces.find(item.leaf->_parent);
+            if (surface == _surfaces.end())
+                return;
+            SurfaceKey key = item.variant ? item.variant->getKey() : SurfaceKey();
+            if (!item.variant)
+                key.instance = surface->second.key.instance;
+            if (!rekey(item, key))
+                return;
+            const bool keepsProgram =
+                !item.variant && !key.instance && surface->second.state->get(SurfaceState::Program);
+            if (keepsProgram || surface->second.state->isProgramProtected())
+            {
+                ++refused;
+                return;
+            }
+            items.push_back(item);
+            items.back().variant =
+                variantOf(key, surface->second.program, surface->second.instance);
+        });
+    std::stable_sort(items.begin(), items.end(),
+                     [](const SurfaceItem& a, const SurfaceItem& b)
+                     { return std::less<>()(a.variant, b.variant); });
+    osg::State& state = *renderInfo.getState();
+    state.pushStateSet(&over);
+    draw(renderInfo, items.data(), items.size());
+    state.popStateSet();
+    return refused;
 }
 
 void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,

@@ -86,6 +86,13 @@ public:
     void drawSelected(osg::RenderInfo& renderInfo, const osg::StateSet& over,
                       const std::function<bool(const SurfaceItem&)>& select);
 
+    /// Draws leaves once more into the current framebuffer, by programs for other keys than their
+    /// own. `rekey` makes a leaf's key another one, or returns false to leave it out; a leaf that
+    /// keeps the fixed function comes with a plain key. `over` as in drawSelected(), without a
+    /// Program. Returns how many leaves can't be drawn so: their own programs can't be wrapped.
+    std::size_t drawAs(osg::RenderInfo& renderInfo, const osg::StateSet& over,
+                       const std::function<bool(const SurfaceItem&, SurfaceKey&)>& rekey);
+
     const std::vector<osgUtil::RenderLeaf*>& getLeaves(std::size_t bin) const { return _bins[bin]; }
 
 protected:

@@ -28,6 +28,8 @@ std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
         return {GL_DEPTH_COMPONENT, GL_FLOAT};
     case GL_R32UI:
         return {GL_RED_INTEGER_EXT, GL_UNSIGNED_INT};
+    case GL_RG32UI:
+        return {GL_RG_INTEGER, GL_UNSIGNED_INT};
     case GL_RGBA32UI_EXT:
         return {GL_RGBA_INTEGER_EXT, GL_UNSIGNED_INT};
     case GL_RG32F:
@@ -48,6 +50,7 @@ int bytesOf(GLint internalFormat)
     switch (internalFormat)
     {
     case GL_RG32F:
+    case GL_RG32UI:
     case GL_RGBA16:
     case GL_RGBA16F_ARB:
         return 8;

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/MapFeatures.h>
+
+#include <osg/ComputeBoundsVisitor>
+#include <osg/Transform>
+#include <osg/ValueObject>
+
+#include <unordered_map>
+
+namespace osgLabels
+{
+
+namespace
+{
+
+const char* const labelValue = "label";
+
+bool hasLabel(const osg::Node& node, std::string& text)
+{
+    return node.getUserDataContainer() && node.getUserValue(labelValue, text) && !text.empty();
+}
+
+/// In the coordinates of `node`: the middle of the upper side of its box in those of the path's
+/// first node.
+osg::Vec3d topOf(const osg::NodePath& path)
+{
+    osg::NodePath above(path.begin(), path.end() - 1);
+    osg::ComputeBoundsVisitor bounds(osg::NodeVisitor::TRAVERSE_ALL_CHILDREN);
+    osg::Matrix aboveToTop = osg::computeLocalToWorld(above);
+    bounds.pushMatrix(aboveToTop);
+    path.back()->accept(bounds);
+    const osg::BoundingBox& box = bounds.getBoundingBox();
+    if (!box.valid())
+        return {};
+    const osg::Vec3d top(0.5 * (double(box.xMin()) + box.xMax()),
+                         0.5 * (double(box.yMin()) + box.yMax()), box.zMax());
+    return top * osg::Matrixd::inverse(osg::computeLocalToWorld(path));
+}
+
+} // namespace
+
+MapFeatures::MapFeatures(MapClasses classes, FoundValued found)
+    : _classes(std::move(classes)), _found(std::move(found)), _objects(1),
+      _collector(
+          std::make_shared<LabelTable>(),
+          [this](const osg::NodePath& path) { return kindOf(path); },
+          [](const std::string&) { return LabelTable::Codes(); })
+{
+}
+
+void MapFeatures::collect(const osg::Group& group)
+{
+    _collector.collect(group);
+    takeNew();
+}
+
+/// The innermost part that a path lies in; new ones are made.
+FeatureTree::Part MapFeatures::partOf(const osg::NodePath& path)
+{
+    FeatureTree::Part part = FeatureTree::Scene;
+    std::string text;
+    for (std::size_t depth = 0; depth < path.size(); ++depth)
+    {
+        const osg::Node& node = *path[depth];
+        const bool isNamed = LabelSource::hasName(node);
+        const bool isValued = _found && hasLabel(node, text);
+        if (!isNamed && !isValued)
+            continue;
+        part = _tree.add(part, hashOf(path, depth + 1), isNamed ? node.getName() : std::string());
+        if (isValued && _valued.insert(part).second)
+            addValued(path, depth, part);
+    }
+    return part;
+}
+
+void MapFeatures::addValued(const osg::NodePath& path, std::size_t depth, FeatureTree::Part part)
+{
+    const osg::NodePath upTo(path.begin(), path.begin() + std::ptrdiff_t(depth) + 1);
+    Valued valued;
+    const osg::Node& node = *upTo.back();
+    node.getUserValue(labelValue, valued.label.text);
+    double priority = 0.0;
+    float single = 0.0f;
+    int whole = 0;
+    if (node.getUserValue("labelPriority", priority))
+        valued.label.priority = priority;
+    else if (node.getUserValue("labelPriority", single))
+        valued.label.priority = single;
+    else if (node.getUserValue("labelPriority", whole))
+        valued.label.priority = whole;
+    node.getUserValue("labelStyle", valued.label.style);
+    valued.label.anchor = topOf(upTo);
+    valued.path.setNodePath(upTo);
+    valued.part = part;
+    _tree.setLabelled(part);
+    _found(std::move(valued));
+}
+
+/// Each Drawable on each path has an identifier of its own, whose text is the number of its kind.
+std::optional<LabelSource::Found> MapFeatures::kindOf(const osg::NodePath& path)
+{
+    if (path.empty())
+        return std::nullopt;
+    std::lock_guard<std::mutex> lock(_mutex);
+    const Kind kind{partOf(path), _classes.actionOf(path)};
+    const auto [found, isNew] = _kindNumbers.emplace(kind, std::uint32_t(_kinds.size()));
+    if (isNew)
+        _kinds.push_back(kind);
+    return LabelSource::Found{std::to_string(found->second), path.size() - 1};
+}
+
+void MapFeatures::takeNew()
+{
+    std::unordered_map<const osg::Drawable*, MeshSides> sides; // instances share theirs
+    for (const std::uint32_t object : _collector.takeNew())
+    {
+        const LabelCollector::Object found = _collector.getObject(object);
+        if (!found.drawable)
+            continue;
+        auto known = sides.find(found.drawable.get());
+        if (known == sides.end())
+            known = sides.emplace(found.drawable.get(), sidesOf(*found.drawable)).first;
+        const std::string kind = _collector.getText(found.identifier);
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (object >= _objects.size())
+            _objects.resize(object + 1);
+        _objects[object] = {std::uint32_t(std::stoul(kind)), known->second};
+    }
+}
+
+MapFeatures::Occluder MapFeatures::occluderOf(std::uint32_t object)
+{
+    if (object == 0 || object >= _objects.size())
+        return {};
+    const Kind& kind = _kinds[_objects[object].kind];
+    return {_tree.getNumber(kind.part), kind.action, _objects[object].sides};
+}
+
+std::vector<MapFeatures::Occluder> MapFeatures::find(const osg::Group& group,
+                                                     const osg::Matrixd& groupToEye,
+                                                     const std::vector<Drawn>& drawn)
+{
+    std::vector<std::uint32_t> objects;
+    objects.reserve(drawn.size());
+    {
+        LabelCollector::View view(_collector, group, groupToEye);
+        for (const Drawn& each : drawn)
+            objects.push_back(view.find(*each.drawable, each.localToEye));
+    }
+    takeNew();
+    std::vector<Occluder> found;
+    found.reserve(drawn.size());
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const std::uint32_t object : objects)
+        found.push_back(occluderOf(object));
+    return found;
+}
+
+MapFeatures::Occluder MapFeatures::find(const osg::Group& group, const osg::NodePath& path)
+{
+    const std::uint32_t object = _collector.getObject(group, path);
+    takeNew();
+    std::lock_guard<std::mutex> lock(_mutex);
+    return occluderOf(object);
+}
+
+MapFeatures::Occluder MapFeatures::findPart(const osg::NodePath& path, std::uint64_t key,
+                                            const std::string& name)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    FeatureTree::Part part = partOf(path);
+    if (!name.empty())
+        part = _tree.add(part, hashOf(path, path.size()) ^ (key + 1) * 0x9E3779B97F4A7C15u, name);
+    const MapAction* action = _classes.find(name);
+    return {_tree.getNumber(part), action ? *action : _classes.actionOf(path), MeshSides::Outward};
+}
+
+FeatureTree::Name MapFeatures::use(const std::string& feature)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.use(feature);
+}
+
+FeatureTree::Range MapFeatures::getRange(FeatureTree::Name name)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.getRange(name);
+}
+
+FeatureTree::Range MapFeatures::getRangeOfPart(FeatureTree::Part part)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.getRangeOfPart(part);
+}
+
+unsigned int MapFeatures::getModifiedCount()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _tree.getNumber(FeatureTree::Scene);
+    return _tree.getModifiedCount();
+}
+
+} // namespace osgLabels

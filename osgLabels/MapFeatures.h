@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/FeatureTree.h>
+#include <osgLabels/LabelCollector.h>
+#include <osgLabels/MapClasses.h>
+#include <osgLabels/MapLabel.h>
+#include <osgLabels/MeshSides.h>
+
+#include <osg/ObserverNodePath>
+
+#include <map>
+#include <mutex>
+#include <optional>
+#include <tuple>
+#include <unordered_set>
+
+namespace osgLabels
+{
+
+/// What stands before map labels: of each Drawable on each path below a group the feature that it
+/// is of, what it does to labels, and which of its sides count. Thread safe.
+class MapFeatures
+{
+public:
+    /// A label by user values: "label", "labelPriority", "labelStyle" of a node.
+    struct Valued
+    {
+        osg::ObserverNodePath path; ///< To the node that has them, from the group on.
+        MapLabel label;             ///< The anchor in the node's own coordinates.
+        FeatureTree::Part part = FeatureTree::Scene;
+    };
+    using FoundValued = std::function<void(Valued)>;
+
+    /// `found` is called once for each node with a label of its own; none: user values are not
+    /// looked at.
+    MapFeatures(MapClasses classes, FoundValued found);
+
+    /// All of the subgraph; what comes later is found when it is in view.
+    void collect(const osg::Group& group);
+    void sweep(const osg::Group& group, std::size_t count) { _collector.sweep(group, count); }
+
+    struct Occluder
+    {
+        std::uint32_t number = 0; ///< Of FeatureTree; 0: not below the group.
+        MapAction action = MapAction::Hide;
+        MeshSides sides = MeshSides::Open;
+    };
+    struct Drawn
+    {
+        const osg::Drawable* drawable = nullptr;
+        osg::Matrixd localToEye;
+    };
+    /// Of what a view draws.
+    std::vector<Occluder> find(const osg::Group& group, const osg::Matrixd& groupToEye,
+                               const std::vector<Drawn>& drawn);
+    /// Of a path from the group to a Drawable.
+    Occluder find(const osg::Group& group, const osg::NodePath& path);
+    /// Of a part of the Drawable at the end of a path, which has a name and no node.
+    Occluder findPart(const osg::NodePath& path, std::uint64_t key, const std::string& name);
+
+    /// A label has the name of a feature.
+    FeatureTree::Name use(const std::string& feature);
+    FeatureTree::Range getRange(FeatureTree::Name name);
+    FeatureTree::Range getRangeOfPart(FeatureTree::Part part);
+    /// Grows when numbers that were given have changed.
+    unsigned int getModifiedCount();
+
+private:
+    /// What Drawables on the same path of named nodes have in common.
+    struct Kind
+    {
+        FeatureTree::Part part;
+        MapAction action;
+        bool operator<(const Kind& other) const
+        {
+            return std::tie(part, action) < std::tie(other.part, other.action);
+        }
+    };
+    std::optional<LabelSource::Found> kindOf(const osg::NodePath& path);
+    FeatureTree::Part partOf(const osg::NodePath& path);
+    void addValued(const osg::NodePath& path, std::size_t depth, FeatureTree::Part part);
+    void takeNew();
+    Occluder occluderOf(std::uint32_t object);
+
+    const MapClasses _classes;
+    const FoundValued _found;
+    std::mutex _mutex; ///< Of all below, under the collector's.
+    FeatureTree _tree;
+    std::map<Kind, std::uint32_t> _kindNumbers;
+    std::vector<Kind> _kinds;
+    struct Object
+    {
+        std::uint32_t kind = 0;
+        MeshSides sides = MeshSides::Open;
+    };
+    std::vector<Object> _objects; ///< By the collector's number.
+    std::unordered_set<FeatureTree::Part> _valued;
+    LabelCollector _collector;
+};
+
+} // namespace osgLabels

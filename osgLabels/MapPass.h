@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/MapCoverage.h>
+#include <osgLabels/MapScene.h>
+
+#include <osgMultiRender/SurfaceFrame.h>
+
+#include <array>
+
+namespace osgLabels
+{
+
+class LabelResources;
+
+/// The map labels of one view of one frame: part of a LabelPass.
+class MapPass
+{
+public:
+    explicit MapPass(LabelResources& resources);
+    ~MapPass();
+
+    /// In cull: takes the leaves of the view.
+    void cull(osgUtil::CullVisitor& visitor, osg::Group& group,
+              const std::vector<const osgUtil::RenderLeaf*>& leaves);
+
+    /// In draw. `viewport` is the view's, as GL says it.
+    void begin(osg::RenderInfo& renderInfo, const GLint (&viewport)[4], float languageVersion,
+               bool isPaged);
+    /// Draws what may stand before labels into targets of its own.
+    void drawOccluders(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame);
+    /// Of a program with bits of MapBits.
+    void apply(osg::State& state, const osgUtil::RenderLeaf& leaf) const;
+    /// Draws the labels.
+    void draw(osg::RenderInfo& renderInfo);
+    /// The label on top at a place from -1 to 1 of the view, as it was drawn; 0 for none.
+    std::uint32_t pick(osg::State& state, double x, double y);
+    void fillPlan(osgMultiRender::Plan& plan) const;
+
+    /// What programs of occluders need.
+    static osgMultiRender::SurfaceSnippet makeSnippet(const osgMultiRender::SurfaceKey& key);
+
+private:
+    /// How a leaf is drawn among occluders.
+    struct Occluder
+    {
+        std::uint32_t number = 0;
+        MapAction action = MapAction::Hide;
+        MeshSides sides = MeshSides::Open;
+        bool isDrawn = false, isNext = false;
+    };
+    /// Labels that share a projection.
+    struct Group
+    {
+        const osg::RefMatrix* projection;
+        std::size_t begin, end;
+    };
+
+    void place();
+    void select(osgMultiRender::SurfaceFrame& frame);
+    bool boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& nearest) const;
+    void drawLayer(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
+                   bool next);
+    void drawSide(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
+                  bool next, int side);
+    MapAction actionAt(osg::State& state, const PlacedLabel& label, int x, int y);
+
+    LabelResources& _resources;
+    MapScene& _scene;
+    unsigned int _contextID = 0;
+    int _language = 330;
+    bool _isPaged = false;
+    GLint _viewport[4] = {};
+    PixelBox _view;
+    bool _isParallel = false;
+    std::vector<EyeLabel> _labels;
+    std::vector<Group> _groups;
+    std::vector<PlacedLabel> _placed; ///< In the order in which they are drawn.
+    std::unordered_map<const osgUtil::RenderLeaf*, Occluder> _occluders;
+    std::unique_ptr<MapCoverage> _coverage;
+    std::vector<MapAction> _actions; ///< In use, the strongest first.
+    std::array<bool, NumMapActions> _needsNext{};
+    unsigned int _drawn = 0, _drawnNext = 0, _leftOut = 0;
+    std::size_t _refused = 0;
+    osg::ref_ptr<MapTargets> _targets;
+    osg::ref_ptr<MapQuads> _quads;
+};
+
+/// Bits of SurfaceKey::output that are the map's.
+enum MapBits : std::uint32_t
+{
+    MapOccluder = 1u << 12,
+    MapNext = 1u << 13,   ///< The second layer.
+    MapOpaque = 1u << 14, ///< What has less than half of the opacity is left out.
+};
+
+} // namespace osgLabels

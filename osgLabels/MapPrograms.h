@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgLabels/MapClasses.h>
+
+#include <osg/StateSet>
+
+#include <map>
+#include <mutex>
+#include <string>
+#include <tuple>
+
+namespace osgLabels
+{
+
+/// The programs that draw map labels. Thread safe.
+class MapPrograms
+{
+public:
+    struct Kind
+    {
+        int language = 330; ///< Of GLSL, times 100.
+        int layers = 0;     ///< Actions in use.
+        bool next = false, anchored = false;
+
+        bool operator<(const Kind& other) const
+        {
+            return std::tie(language, layers, next, anchored) <
+                   std::tie(other.language, other.layers, other.next, other.anchored);
+        }
+    };
+
+    enum Unit
+    {
+        LabelsUnit = 2 ///< Beside those of MapTargets.
+    };
+
+    /// Program and state, with OVERRIDE. `defines`: of the glyphs and buffers.
+    const osg::StateSet* get(const Kind& kind, const std::string& defines);
+
+    void releaseGLObjects(osg::State* state);
+
+private:
+    std::mutex _mutex;
+    std::map<std::pair<Kind, std::string>, osg::ref_ptr<osg::StateSet>> _stateSets;
+};
+
+} // namespace osgLabels
