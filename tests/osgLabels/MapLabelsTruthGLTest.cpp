@@ -120,6 +120,25 @@ TEST_F(MapLabelsTruthGLTest, labelsOfARecordedPathAreHiddenExactlyWhereRaysAre)
     EXPECT_LT(hidden, pixels - pixels / 10);
 }
 
+TEST_F(MapLabelsTruthGLTest, labelsInsideOfTheirFeaturesAndBehindThemAreNotHiddenByThem)
+{
+    for (const double seconds : {2.0, 13.0, 35.0})
+    {
+        const support::CameraSpec camera = cameraAt(seconds);
+        const osg::Vec3d away =
+            osg::Matrixd::transform3x3(osg::Vec3d(0, 0, -1), osg::Matrixd::inverse(camera.view));
+        for (const double metres : {0.0, 40.0})
+        {
+            City moved = town();
+            for (osgLabels::MapLabel& label : moved.labels)
+                label.anchor += away * metres - osg::Vec3d(0.0, 0.0, 8.0);
+            expectExact(compare(moved, camera, 13), std::to_string(int(metres)) +
+                                                        " m behind the roof at second " +
+                                                        std::to_string(seconds));
+        }
+    }
+}
+
 TEST_F(MapLabelsTruthGLTest, treesFadeAndTerrainIsIgnoredWhereRulesSaySo)
 {
     const auto effects = mapTruth::effectByClass(
@@ -147,6 +166,13 @@ TEST_F(MapLabelsTruthGLTest, theCameraMayBeInsideOfABuilding)
             support::CameraSpec::perspective(eye, eye + osg::Vec3d(0.3, 1.0, 0.02), {0, 0, 1}, 50.0,
                                              double(Width) / Height, 0.1, 3000.0);
         expectExact(compare(town(), camera, 7), std::string("inside of ") + building);
+        // In the same room, of no feature.
+        City inside = town();
+        inside.labels = {{eye + osg::Vec3d(0.3, 1.0, 0.02) * 2.0, "here", 0.0, {}, {}}};
+        const Comparison here = compare(inside, camera, 7);
+        expectExact(here, std::string("within ") + building);
+        EXPECT_GT(here.pixels, 500u);
+        EXPECT_EQ(here.affected, 0u);
     }
 }
 
