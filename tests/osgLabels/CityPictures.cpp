@@ -39,6 +39,17 @@ support::HeadlessViewer& viewer()
     return theViewer;
 }
 
+std::string getRenderer()
+{
+    osgViewer::Viewer::Contexts contexts;
+    viewer().getViewer().getContexts(contexts);
+    if (contexts.empty() || !contexts.front()->makeCurrent())
+        return "unknown renderer";
+    const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    // The context stays current, as the viewer leaves it after a frame.
+    return name ? name : "unknown renderer";
+}
+
 City makeTown(double origin)
 {
     CitySettings settings;

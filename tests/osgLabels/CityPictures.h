@@ -23,6 +23,9 @@ constexpr int Width = 640, Height = 480;
 /// Of this process.
 support::HeadlessViewer& viewer();
 
+/// Of the viewer's context, as GL names it.
+std::string getRenderer();
+
 /// The town of 500 buildings with its middle there.
 City makeTown(double origin = 0.0);
 
