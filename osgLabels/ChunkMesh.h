@@ -49,6 +49,9 @@ public:
     static constexpr unsigned int ObjectAttribute = 6;
     static constexpr char ObjectsName[] = "osgLabels.objects"; ///< Of the array of the attribute.
 
+    /// Whether a Drawable's vertices say which objects they are of.
+    static bool isChunk(const osg::Drawable& drawable);
+
     explicit ChunkMesh(const MeshLayout& layout);
 
     /// `geometry` has the layout.

@@ -47,6 +47,12 @@ FeatureTree::Name FeatureTree::use(const std::string& name)
     return number;
 }
 
+bool FeatureTree::isUsed(const std::string& name) const
+{
+    const auto found = _names.find(name);
+    return found != _names.end() && _isUsed[found->second];
+}
+
 bool FeatureTree::isFeature(const Node& node) const
 {
     return node.isLabelled || (node.name && _isUsed[node.name]);

@@ -38,6 +38,7 @@ public:
     void setLabelled(Part part);
     /// A label names all parts of a name; there may be none yet. Empty: None.
     Name use(const std::string& name);
+    bool isUsed(const std::string& name) const;
 
     /// Of what lies in a part, and in no part inside of it. Numbers may change with each call of
     /// the others.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/LabelKeys.h>
 
+#include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelScene.h>
 
 #include <osg/ApplicationUsage>
@@ -36,12 +37,45 @@ void printPicked(LabelScene& scene)
     OSG_NOTICE << "osgLabels: " << line << std::endl;
 }
 
+template <class Value> Value next(Value value, Value last)
+{
+    return value == last ? Value(0) : Value(int(value) + 1);
+}
+
+/// Of map labels; prints what is on now.
+void change(char key, LabelScene& scene)
+{
+    LabelSettings settings = scene.getSettings();
+    std::string name;
+    if (key == 'U')
+    {
+        settings.mapTest = next(settings.mapTest, MapTest::Share);
+        name = "maptest";
+    }
+    else if (key == 'O')
+    {
+        settings.mapAction = next(settings.mapAction, MapAction::Ignore);
+        name = "mapaction";
+    }
+    else
+    {
+        settings.declutter = !settings.declutter;
+        name = "declutter";
+    }
+    scene.setSettings(settings);
+    for (const LabelOption& option : labelOptions())
+        if (option.name == name)
+            OSG_NOTICE << "osgLabels: " << name << "=" << option.format(settings) << std::endl;
+}
+
 void answer(char key, LabelScene& scene, const KeyEvent& event)
 {
     if (key == 'I')
         scene.pick(event.getXnormalized(), event.getYnormalized());
-    else
+    else if (key == 'L')
         scene.setShown(!scene.isShown());
+    else
+        change(key, scene);
 }
 
 } // namespace
@@ -51,6 +85,9 @@ const std::vector<LabelKey>& labelKeys()
     static const std::vector<LabelKey> keys = {
         {'I', "Prints identifier, text and nodes of the object under the mouse"},
         {'L', "Labels, shown or not"},
+        {'O', "Map labels behind something: hidden there, outlined, recoloured, faded, shown"},
+        {'U', "Map labels are hidden by pixels, by their anchors, by the share that is visible"},
+        {'C', "Map labels make way for more important ones, or not"},
     };
     return keys;
 }

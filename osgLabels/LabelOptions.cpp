@@ -172,8 +172,7 @@ LabelOption matchOption()
 LabelOption classOption()
 {
     return {"mapclass", "<regular expression>:hide|outline|recolor|fade|ignore,...",
-            "What happens to a map label that something stands before, by the name or the user "
-            "value \"labelClass\" of that; hide for all others",
+            "The same by the name, or the user value \"labelClass\", of what stands there",
             [](LabelSettings& settings, const std::string& text) -> std::string
             {
                 MapClasses check;
@@ -266,6 +265,13 @@ const std::vector<LabelOption>& labelOptions()
                          {{"anchor", MapDepth::Anchor}, {"back", MapDepth::Back}},
                          "How far away a map label is: as its anchor, or just before the back of "
                          "its own feature"),
+        choice<MapAction>("mapaction", &LabelSettings::mapAction,
+                          {{"hide", MapAction::Hide},
+                           {"outline", MapAction::Outline},
+                           {"recolor", MapAction::Recolor},
+                           {"fade", MapAction::Fade},
+                           {"ignore", MapAction::Ignore}},
+                          "What happens to the part of a map label that something stands before"),
         classOption(),
         choice<MapTest>(
             "maptest", &LabelSettings::mapTest,

@@ -59,14 +59,6 @@ void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil
         forEachLeaf(*inner, f);
 }
 
-/// Its vertices say which objects they are of.
-bool isChunk(const osg::Drawable& drawable)
-{
-    const osg::Geometry* geometry = drawable.asGeometry();
-    const osg::Array* objects = geometry ? geometry->getVertexAttribArray(indexAttribute) : nullptr;
-    return objects && objects->getName() == ChunkMesh::ObjectsName;
-}
-
 /// Points have no surface to write on.
 bool isPoints(const osg::Drawable& drawable)
 {
@@ -85,10 +77,11 @@ osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 
 } // namespace
 
-LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
+LabelPass::LabelPass(std::shared_ptr<LabelResources> resources, const LabelSettings& settings)
+    : _resources(std::move(resources))
 {
     if (_resources && _resources->map)
-        _map = std::make_unique<MapPass>(*_resources);
+        _map = std::make_unique<MapPass>(*_resources, settings);
 }
 
 LabelPass::~LabelPass()
@@ -125,7 +118,7 @@ std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollecto
         return _resources->batches.recordBaseOf(static_cast<const PrimitiveRun&>(drawable))
                    ? SaysItself
                    : 0;
-    if (isChunk(drawable)) // likewise
+    if (ChunkMesh::isChunk(drawable)) // likewise
         return SaysItself;
     if (isPoints(drawable))
         return 0;
@@ -151,7 +144,7 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     _languageVersion = state.get<osg::GLExtensions>()->glslLanguageVersion;
     _isPaged = _resources && _resources->buffers.isPaged(state);
     if (_map)
-        _map->begin(renderInfo, _viewport, _languageVersion, _isPaged);
+        _map->begin(renderInfo, frame.getStage().getCamera(), _viewport, _isPaged);
     if (!_reason.empty())
         return;
     const osg::Matrixd* view =
@@ -204,8 +197,8 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
         _direct += !(key.output & Diverted);
     }
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
-    const bool hasOther =
-        geometry && geometry->getVertexAttribArray(indexAttribute) && !isChunk(*geometry);
+    const bool hasOther = geometry && geometry->getVertexAttribArray(indexAttribute) &&
+                          !ChunkMesh::isChunk(*geometry);
     const bool isOneObject =
         key.instance && !dynamic_cast<const PrimitiveRun*>(leaf._drawable.get());
     if ((key.output & Labelled) && (key.program || hasOther || isOneObject))
@@ -291,7 +284,7 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
 {
     const std::uint32_t bits = variant.getKey().output;
     if (bits & MapOccluder)
-        _map->apply(*renderInfo.getState(), leaf);
+        _map->apply(*renderInfo.getState(), variant, leaf);
     if (!(bits & Labelled))
         return;
     // osg::Program trims "[0]" off the names of arrays.

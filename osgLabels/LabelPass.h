@@ -41,7 +41,7 @@ class LabelPass : public osgMultiRender::SurfacePass
 {
 public:
     /// Null: labels are not shown.
-    explicit LabelPass(std::shared_ptr<LabelResources> resources);
+    LabelPass(std::shared_ptr<LabelResources> resources, const LabelSettings& settings);
     ~LabelPass() override;
 
     osgMultiRender::SurfaceRole getRole() const override
@@ -63,6 +63,10 @@ public:
     void apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                const osgUtil::RenderLeaf& leaf, std::uint32_t number) override;
     void fillPlan(osgMultiRender::Plan& plan) const override;
+
+    /// Declares osgLabels_index, the record of the object that a fragment is of.
+    static void addIndex(const osgMultiRender::SurfaceKey& key,
+                         osgMultiRender::SurfaceSnippet& snippet);
 
 private:
     /// The number of a leaf whose drawable has the indices of its objects.
@@ -86,8 +90,6 @@ private:
 
     void addTexCoords(const osgMultiRender::SurfaceKey& key,
                       osgMultiRender::SurfaceSnippet& snippet) const;
-    static void addIndex(const osgMultiRender::SurfaceKey& key,
-                         osgMultiRender::SurfaceSnippet& snippet);
     void addLabel(const osgMultiRender::SurfaceKey& key,
                   osgMultiRender::SurfaceSnippet& snippet) const;
     Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const;

@@ -47,7 +47,8 @@ float widestOutline(const LabelSettings& settings)
     for (const LabelStyle& style : settings.styles)
         outline = std::max(outline, style.outlineWidth);
     // Of map labels behind something only outlines may be left.
-    if (settings.mapClass.find(":outline") != std::string::npos)
+    if (settings.map != "off" || settings.mapClass.find(":outline") != std::string::npos ||
+        settings.mapAction == MapAction::Outline)
         outline = std::max(outline, 0.06f);
     return outline;
 }
@@ -83,7 +84,7 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
     if (hasSurfaceLabels())
         collector->collect(group);
     fitNew();
-    map = std::make_unique<MapScene>(settings, _glyphs, group);
+    map = std::make_unique<MapScene>(settings, _glyphs, batches, group);
     if (settings.chunk)
         makeChunks(group);
 }
@@ -116,8 +117,15 @@ void LabelResources::fitNew()
 
 void LabelResources::makeChunks(osg::Group& group)
 {
-    Chunker chunker([&](const osg::NodePath& path) { return collector->getObject(group, path); });
+    std::vector<MapRecords::Chunked> chunked;
+    Chunker chunker(
+        [&](const osg::NodePath& path)
+        {
+            chunked.push_back({collector->getObject(group, path), path});
+            return chunked.back().object;
+        });
     Chunks chunks = chunker.chunk(group);
+    map->records.setChunked(std::move(chunked));
     for (const Chunks::Object& object : chunks.objects)
         objects.set(object.object,
                     recordOf(*object.geometry, object.localToChunk, settings.texCoord,
@@ -209,12 +217,7 @@ void LabelResources::releaseGLObjects(osg::State* state)
     targets.releaseGLObjects(state);
     programs.releaseGLObjects(state);
     if (map)
-    {
-        map->buffers.releaseGLObjects(state);
-        map->targets.releaseGLObjects(state);
-        map->quads.releaseGLObjects(state);
-        map->programs.releaseGLObjects(state);
-    }
+        map->releaseGLObjects(state);
     screen->releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_atlasMutex);
     osg::ref_ptr<osg::StateSet> textures = new osg::StateSet;

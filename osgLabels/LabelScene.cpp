@@ -18,6 +18,24 @@ namespace
 /// Drawables that are looked at in each frame, whether they are still where they were.
 constexpr std::size_t sweptPerFrame = 256;
 
+/// Whether settings differ in nothing that labels are collected by.
+bool isKept(const LabelSettings& was, LabelSettings is)
+{
+    is.mapSize = was.mapSize;
+    is.mapWorld = was.mapWorld;
+    is.mapOffset = was.mapOffset;
+    is.mapDepth = was.mapDepth;
+    is.mapAction = was.mapAction;
+    is.mapTest = was.mapTest;
+    is.mapLeader = was.mapLeader;
+    is.mapFade = was.mapFade;
+    is.mapColor = was.mapColor;
+    is.declutter = was.declutter;
+    is.keys = was.keys;
+    return formatLabelOptions(is) == formatLabelOptions(was) && is.styles.size() == 1 &&
+           was.styles.size() == 1;
+}
+
 } // namespace
 
 LabelScene::LabelScene()
@@ -70,8 +88,9 @@ std::optional<LabelScene::Picked> LabelScene::takePicked()
 void LabelScene::setSettings(const LabelSettings& settings)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    if (!isKept(_settings, settings))
+        _resources.reset();
     _settings = settings;
-    _resources.reset();
 }
 
 void LabelScene::setSettingsText(const std::string& text)
@@ -125,11 +144,13 @@ void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
         resources->getChunks()->accept(visitor);
     else
         osgMultiRender::SurfaceGroup::cullSubgraph(visitor);
+    if (resources && resources->map && resources->map->getFileLabels())
+        resources->map->getFileLabels()->accept(visitor);
 }
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
-    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr);
+    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr, _settings);
 }
 
 } // namespace osgLabels

@@ -48,6 +48,18 @@ enum class MapTest
     Share   ///< All of it, by the share that is visible.
 };
 
+/// What becomes of the pixels of a map label that something else stands before. Of several
+/// things the first action of these counts.
+enum class MapAction : unsigned int
+{
+    Hide,
+    Outline, ///< The edges of its letters are left.
+    Recolor, ///< Letters take LabelSettings::mapColor.
+    Fade,    ///< Drawn with LabelSettings::mapFade of its opacity.
+    Ignore   ///< As if nothing stood there.
+};
+constexpr unsigned int NumMapActions = 4; ///< Those that change something.
+
 enum class SurfaceLabels
 {
     Auto, ///< Where no map is given.
@@ -73,12 +85,14 @@ struct LabelSettings
     bool chunk = false;
     bool keys = true;
     SurfaceLabels surface = SurfaceLabels::Auto;
+    // Of map labels.
     std::string map = "off"; ///< "off", "values" or a file.
     float mapSize = 14.0f;   ///< Pixels an em.
     float mapWorld = 0.0f;   ///< Units an em; 0: mapSize counts.
     float mapOffset = 0.0f;  ///< Units towards the eye.
     MapDepth mapDepth = MapDepth::Anchor;
-    std::string mapClass; ///< See MapClasses.
+    MapAction mapAction = MapAction::Hide;
+    std::string mapClass; ///< See MapClasses; mapAction for what it does not name.
     MapTest mapTest = MapTest::Pixel;
     float mapLeader = 0.0f; ///< Pixels.
     float mapFade = 0.25f;  ///< Opacity.

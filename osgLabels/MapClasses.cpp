@@ -68,31 +68,31 @@ bool MapClasses::parse(const std::string& text, std::string& error)
     return true;
 }
 
-const MapAction* MapClasses::find(const std::string& name) const
+std::optional<MapAction> MapClasses::find(const std::string& name) const
 {
     if (name.empty())
-        return nullptr;
+        return std::nullopt;
     const auto end =
         name.begin() + static_cast<std::ptrdiff_t>(std::min(name.size(), longestMatched));
     for (const Rule& rule : _rules)
         if (std::regex_search(name.begin(), end, rule.pattern))
-            return &rule.action;
-    return nullptr;
+            return rule.action;
+    return std::nullopt;
 }
 
-MapAction MapClasses::actionOf(const osg::NodePath& path) const
+std::optional<MapAction> MapClasses::actionOf(const osg::NodePath& path) const
 {
     if (_rules.empty())
-        return MapAction::Hide;
+        return std::nullopt;
     for (auto node = path.rbegin(); node != path.rend(); ++node)
     {
         std::string name;
         if (!(*node)->getUserDataContainer() || !(*node)->getUserValue("labelClass", name))
             name = (*node)->getName();
-        if (const MapAction* action = find(name))
-            return *action;
+        if (const std::optional<MapAction> action = find(name))
+            return action;
     }
-    return MapAction::Hide;
+    return std::nullopt;
 }
 
 } // namespace osgLabels

@@ -90,7 +90,9 @@ bool MapCoverage::mayOwn(const PixelBox& box, std::uint32_t number) const
         for (int x = span.left; x <= span.right; ++x)
         {
             const Tile& tile = _tiles[std::size_t(y) * Tiles + std::size_t(x)];
-            if (tile.several || isIn(number, tile.own[0]) || isIn(number, tile.own[1]))
+            const bool isAny = number == 0 && (tile.own[0].first <= tile.own[0].last ||
+                                               tile.own[1].first <= tile.own[1].last);
+            if (tile.several || isAny || isIn(number, tile.own[0]) || isIn(number, tile.own[1]))
                 return true;
         }
     return false;

@@ -21,7 +21,7 @@ public:
     /// Whether something in a box, nowhere nearer than `distance`, may stand before a label that
     /// is not its own. `number` is that of its feature; 0: of several.
     bool mayHide(const PixelBox& box, double distance, std::uint32_t number) const;
-    /// Whether its own label is there.
+    /// Whether its own label is there; `number` 0: that of any feature.
     bool mayOwn(const PixelBox& box, std::uint32_t number) const;
 
     /// Around all labels.

@@ -164,15 +164,16 @@ MapFeatures::Occluder MapFeatures::find(const osg::Group& group, const osg::Node
     return occluderOf(object);
 }
 
-MapFeatures::Occluder MapFeatures::findPart(const osg::NodePath& path, std::uint64_t key,
+MapFeatures::Occluder MapFeatures::findPart(const osg::NodePath& path, std::uint64_t number,
                                             const std::string& name)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     FeatureTree::Part part = partOf(path);
-    if (!name.empty())
-        part = _tree.add(part, hashOf(path, path.size()) ^ (key + 1) * 0x9E3779B97F4A7C15u, name);
-    const MapAction* action = _classes.find(name);
-    return {_tree.getNumber(part), action ? *action : _classes.actionOf(path), MeshSides::Outward};
+    if (_tree.isUsed(name)) // of millions of others nothing needs to be known
+        part =
+            _tree.add(part, hashOf(path, path.size()) ^ (number + 1) * 0x9E3779B97F4A7C15u, name);
+    const std::optional<MapAction> action = _classes.find(name);
+    return {_tree.getNumber(part), action ? action : _classes.actionOf(path), MeshSides::Outward};
 }
 
 FeatureTree::Name MapFeatures::use(const std::string& feature)

@@ -42,8 +42,8 @@ public:
 
     struct Occluder
     {
-        std::uint32_t number = 0; ///< Of FeatureTree; 0: not below the group.
-        MapAction action = MapAction::Hide;
+        std::uint32_t number = 0;        ///< Of FeatureTree; 0: not below the group.
+        std::optional<MapAction> action; ///< Of its class, if it has one.
         MeshSides sides = MeshSides::Open;
     };
     struct Drawn
@@ -56,8 +56,8 @@ public:
                                const std::vector<Drawn>& drawn);
     /// Of a path from the group to a Drawable.
     Occluder find(const osg::Group& group, const osg::NodePath& path);
-    /// Of a part of the Drawable at the end of a path, which has a name and no node.
-    Occluder findPart(const osg::NodePath& path, std::uint64_t key, const std::string& name);
+    /// Of a part, with a number, of what is at the end of a path, which has a name and no node.
+    Occluder findPart(const osg::NodePath& path, std::uint64_t number, const std::string& name);
 
     /// A label has the name of a feature.
     FeatureTree::Name use(const std::string& feature);
@@ -71,7 +71,7 @@ private:
     struct Kind
     {
         FeatureTree::Part part;
-        MapAction action;
+        std::optional<MapAction> action;
         bool operator<(const Kind& other) const
         {
             return std::tie(part, action) < std::tie(other.part, other.action);

@@ -3,6 +3,7 @@
 #include <osgLabels/MapPass.h>
 
 #include <osgLabels/LabelExtensions.h>
+#include <osgLabels/LabelPass.h>
 #include <osgLabels/LabelPrograms.h>
 #include <osgLabels/LabelUnits.h>
 #include <osgLabels/Shaders.h>
@@ -38,6 +39,8 @@ enum Side
     BothSides,
     Counterclockwise, ///< What is so in the picture is seen from outside.
     Clockwise,
+    ManyCounterclockwise, ///< All sides are drawn, and the program looks at each object's.
+    ManyClockwise,
     NumSides
 };
 
@@ -61,11 +64,14 @@ bool keepsWinding(const osgUtil::RenderLeaf& leaf)
     return turn * determinant(column(0), column(1), along) < 0.0;
 }
 
-Side sideOf(const osgUtil::RenderLeaf& leaf, MeshSides sides)
+Side sideOf(const osgUtil::RenderLeaf& leaf, MeshSides sides, bool isMany)
 {
     if (sides == MeshSides::Open)
         return BothSides;
-    return keepsWinding(leaf) == (sides == MeshSides::Outward) ? Counterclockwise : Clockwise;
+    const bool isCounterclockwise = keepsWinding(leaf) == (sides == MeshSides::Outward);
+    if (isMany)
+        return isCounterclockwise ? ManyCounterclockwise : ManyClockwise;
+    return isCounterclockwise ? Counterclockwise : Clockwise;
 }
 
 /// Whether it can stand before anything: not skies, not what is painted over all.
@@ -95,24 +101,39 @@ void setState(osg::StateSet& over, const GLint (&viewport)[4], const PixelBox& b
 osgMultiRender::SurfaceSnippet MapPass::makeSnippet(const SurfaceKey& key)
 {
     osgMultiRender::SurfaceSnippet snippet;
+    const bool isMany = key.output & MapMany;
     if (key.output & MapNext)
-        snippet.fragment = "#define OSGLABELS_NEXT\n";
+        snippet.fragment += "#define OSGLABELS_NEXT\n";
+    if (isMany)
+        snippet.fragment += "#define OSGLABELS_RECORDS\n";
+    if (key.output & Paged)
+        snippet.fragment += "#define OSGLABELS_PAGED\n";
     snippet.fragment +=
         LabelSources::file(osg::Shader::FRAGMENT, "occluder.frag", shaders::occluder_frag);
+    if (isMany)
+        LabelPass::addIndex(key, snippet);
     if (key.output & MapOpaque)
         snippet.statements = "    if (osgmr_out0.a < 0.5)\n        discard;\n";
-    snippet.statements += "    osgLabels_writeOccluder(uint(osgLabels_feature));\n";
+    snippet.statements += "    osgLabels_writeOccluder(";
+    snippet.statements +=
+        isMany ? "osgLabels_featureOf(osgLabels_index));\n" : "uint(osgLabels_feature));\n";
     return snippet;
 }
 
-void MapPass::apply(osg::State& state, const osgUtil::RenderLeaf& leaf) const
+void MapPass::apply(osg::State& state, const osgMultiRender::SurfaceVariant& variant,
+                    const osgUtil::RenderLeaf& leaf) const
 {
     static const unsigned int featureName = osg::Uniform::getNameID("osgLabels_feature");
+    static const unsigned int baseName = osg::Uniform::getNameID("osgLabels_recordBase");
     const auto found = _occluders.find(&leaf);
+    if (found == _occluders.end())
+        return;
     const auto& program = *state.getLastAppliedProgramObject();
-    state.get<osg::GLExtensions>()->glUniform1i(
-        program.getUniformLocation(featureName),
-        found == _occluders.end() ? 0 : GLint(found->second.number));
+    const auto* gl = state.get<osg::GLExtensions>();
+    if (variant.getKey().output & MapMany)
+        gl->glUniform1i(program.getUniformLocation(baseName), found->second.recordBase);
+    else
+        gl->glUniform1i(program.getUniformLocation(featureName), GLint(found->second.number));
 }
 
 /// Of the leaf's bound in the picture; false where it has none or comes near the eye.
@@ -148,7 +169,7 @@ bool MapPass::boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& near
 void MapPass::select(SurfaceFrame& frame)
 {
     _coverage = std::make_unique<MapCoverage>(_view);
-    const bool isBack = _scene.settings.mapDepth == MapDepth::Back;
+    const bool isBack = _settings.mapDepth == MapDepth::Back;
     for (const PlacedLabel& label : _placed)
     {
         const FeatureTree::Range& own = label.label->own;
@@ -158,7 +179,7 @@ void MapPass::select(SurfaceFrame& frame)
                        isBack && hasOwn ? std::numeric_limits<double>::infinity() : label.distance,
                        own);
     }
-    std::array<bool, NumMapActions> used{};
+    std::uint32_t used = 0;
     frame.forEachItem(
         [&](const SurfaceItem& item)
         {
@@ -166,7 +187,8 @@ void MapPass::select(SurfaceFrame& frame)
             if (found == _occluders.end())
                 return;
             Occluder& occluder = found->second;
-            if (occluder.action == MapAction::Ignore || !item.state || !isSolid(*item.state))
+            const std::uint32_t actions = actionsOf(occluder);
+            if (!actions || !item.state || !isSolid(*item.state))
                 return;
             PixelBox box = _view;
             double nearest = -1.0;
@@ -176,18 +198,29 @@ void MapPass::select(SurfaceFrame& frame)
                 box = _view;
                 nearest = -1.0;
             }
-            const std::uint32_t number = isBack ? 0 : occluder.number;
-            occluder.isDrawn = _coverage->mayHide(box, nearest, number);
+            const std::uint32_t number = occluder.isMany ? 0 : occluder.number;
+            occluder.isDrawn = _coverage->mayHide(box, nearest, isBack ? 0 : number);
             ++(occluder.isDrawn ? _drawn : _leftOut);
             if (!occluder.isDrawn)
                 return;
-            const auto action = unsigned(occluder.action);
-            used[action] = true;
-            _needsNext[action] = _needsNext[action] || _coverage->mayOwn(box, occluder.number);
+            occluder.side = sideOf(*item.leaf, occluder.sides, occluder.isMany);
+            used |= actions;
+            for (unsigned int action = 0; action < NumMapActions; ++action)
+                if (actions & (1u << action))
+                    _needsNext[action] = _needsNext[action] || _coverage->mayOwn(box, number);
         });
     for (unsigned int action = 0; action < NumMapActions; ++action)
-        if (used[action])
+        if (used & (1u << action))
             _actions.push_back(MapAction(action));
+}
+
+std::uint32_t MapPass::actionsOf(const Occluder& occluder) const
+{
+    const std::uint32_t all = (1u << NumMapActions) - 1u, own = 1u << unsigned(_settings.mapAction);
+    if (!occluder.isMany)
+        return (1u << unsigned(occluder.action)) & all;
+    const std::uint32_t actions = _scene.records.getActions();
+    return (actions | (actions >> (NumMapActions + 1) & 1u ? own : 0u)) & all;
 }
 
 void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
@@ -202,6 +235,7 @@ void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
     _targets = _scene.targets.acquire(
         _contextID,
         {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], int(_actions.size()), next});
+    _records = _scene.records.upload(state);
     osgMultiRender::FramebufferVisit visit(state);
     for (std::size_t layer = 0; layer < _actions.size(); ++layer)
         drawLayer(renderInfo, frame, int(layer), false);
@@ -224,58 +258,69 @@ void MapPass::drawLayer(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int la
     state.popStateSet();
     if (next && !_needsNext[unsigned(_actions[std::size_t(layer)])])
         return;
+    const MapAction action = _actions[std::size_t(layer)];
     for (int side = 0; side < NumSides; ++side)
-        drawSide(renderInfo, frame, layer, next, side);
+        _refused += frame.drawAs(renderInfo, *stateOf(layer, next, side),
+                                 [&](const SurfaceItem& item, SurfaceKey& key)
+                                 { return rekey(item, action, next, side, key); });
 }
 
-void MapPass::drawSide(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int layer, bool next,
-                       int side)
+osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, bool next, int side) const
 {
     osg::ref_ptr<osg::StateSet> over = new osg::StateSet;
     setState(*over, _viewport, _coverage->getBox());
-    if (side == BothSides)
+    const bool isMany = side == ManyCounterclockwise || side == ManyClockwise;
+    if (side == BothSides || isMany)
         over->setMode(GL_CULL_FACE, Never);
     else
-    {
         over->setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT), Over);
-        over->setAttribute(new osg::FrontFace(side == Counterclockwise
-                                                  ? osg::FrontFace::COUNTER_CLOCKWISE
-                                                  : osg::FrontFace::CLOCKWISE),
-                           Over);
+    const bool isClockwise = side == Clockwise || side == ManyClockwise;
+    over->setAttribute(new osg::FrontFace(isClockwise ? osg::FrontFace::CLOCKWISE
+                                                      : osg::FrontFace::COUNTER_CLOCKWISE),
+                       Over);
+    const auto add = [&](osg::Uniform* uniform) { over->addUniform(uniform, Over); };
+    add(new osg::Uniform("osgLabels_isParallel", int(_isParallel)));
+    const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
+    { over->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), Over); };
+    if (isMany)
+    {
+        texture(TextsUnit, _records.get());
+        add(new osg::Uniform("osgLabels_features", int(TextsUnit)));
+        add(new osg::Uniform("osgLabels_action", int(_actions[std::size_t(layer)]),
+                             int(_settings.mapAction)));
     }
-    over->addUniform(new osg::Uniform("osgLabels_isParallel", int(_isParallel)), Over);
     if (next)
     {
-        over->addUniform(new osg::Uniform("osgLabels_nearest", int(RowsUnit)), Over);
-        over->addUniform(new osg::Uniform("osgLabels_layer0", layer), Over);
-        over->setTextureAttribute(RowsUnit, const_cast<osg::StateAttribute*>(_targets->getNear()),
-                                  Over);
+        texture(RowsUnit, _targets->getNear());
+        add(new osg::Uniform("osgLabels_nearest", int(RowsUnit)));
+        add(new osg::Uniform("osgLabels_layer0", layer));
     }
-    const MapAction action = _actions[std::size_t(layer)];
-    _refused += frame.drawAs(
-        renderInfo, *over,
-        [&](const SurfaceItem& item, SurfaceKey& key)
-        {
-            const auto found = _occluders.find(item.leaf);
-            if (found == _occluders.end() || !found->second.isDrawn ||
-                found->second.action != action || sideOf(*item.leaf, found->second.sides) != side)
-                return false;
-            const SurfaceState& state = *item.state;
-            const bool isSheer =
-                state.isOn(SurfaceState::Blend) || state.isOn(SurfaceState::AlphaToCoverage);
-            if (!key.program && !isSheer && !state.isOn(SurfaceState::AlphaTest))
-            {
-                // Nothing of its colour is needed.
-                SurfaceKey plain;
-                plain.clip = key.clip;
-                plain.instance = key.instance;
-                key = plain;
-            }
-            key.output = MapOccluder | (next ? std::uint32_t(MapNext) : 0u) |
-                         (isSheer ? std::uint32_t(MapOpaque) : 0u);
-            _drawnNext += next;
-            return true;
-        });
+    return over;
+}
+
+bool MapPass::rekey(const SurfaceItem& item, MapAction action, bool next, int side, SurfaceKey& key)
+{
+    const auto found = _occluders.find(item.leaf);
+    if (found == _occluders.end() || !found->second.isDrawn || found->second.side != side ||
+        !(actionsOf(found->second) & (1u << unsigned(action))))
+        return false;
+    const SurfaceState& state = *item.state;
+    const bool isSheer =
+        state.isOn(SurfaceState::Blend) || state.isOn(SurfaceState::AlphaToCoverage);
+    if (!key.program && !isSheer && !state.isOn(SurfaceState::AlphaTest))
+    {
+        // Nothing of its colour is needed.
+        SurfaceKey plain;
+        plain.clip = key.clip;
+        plain.instance = key.instance;
+        key = plain;
+    }
+    const auto bit = [](bool is, std::uint32_t value) { return is ? value : 0u; };
+    const bool isMany = found->second.isMany;
+    key.output = MapOccluder | bit(next, MapNext) | bit(isSheer, MapOpaque) | bit(isMany, MapMany) |
+                 bit(isMany && _isPaged, Paged);
+    _drawnNext += next;
+    return true;
 }
 
 } // namespace osgLabels

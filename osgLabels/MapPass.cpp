@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/MapPass.h>
 
+#include <osgLabels/ChunkMesh.h>
 #include <osgLabels/LabelResources.h>
 #include <osgLabels/LabelUnits.h>
+#include <osgLabels/PrimitiveRun.h>
 
+#include <osg/Point>
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
 
@@ -15,6 +18,9 @@ namespace osgLabels
 
 namespace
 {
+
+/// How long a label stays as it is when it is hidden as a whole.
+constexpr float secondsOfState = 1.0f;
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
@@ -55,7 +61,10 @@ osg::ref_ptr<osg::Uniform> looksOf(const std::vector<LabelStyle>& styles)
 
 } // namespace
 
-MapPass::MapPass(LabelResources& resources) : _resources(resources), _scene(*resources.map) {}
+MapPass::MapPass(LabelResources& resources, const LabelSettings& settings)
+    : _resources(resources), _scene(*resources.map), _settings(settings)
+{
+}
 
 MapPass::~MapPass()
 {
@@ -87,6 +96,8 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
             addGroup(leaf->_projection.get(), begin);
             continue;
         }
+        if (addMany(*leaf))
+            continue;
         drawn.push_back({leaf->_drawable.get(), localToEye});
         drawnLeaves.push_back(leaf);
     }
@@ -95,24 +106,55 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
     addGroup(visitor.getProjectionMatrix(), begin);
     if (_labels.empty())
         return;
-    _scene.activate(group);
     const std::vector<MapFeatures::Occluder> found = _scene.features.find(group, groupToEye, drawn);
     for (std::size_t i = 0; i < found.size(); ++i)
         if (found[i].number)
-            _occluders[drawnLeaves[i]] = {found[i].number, found[i].action, found[i].sides};
+            _occluders[drawnLeaves[i]] = {
+                found[i].number, found[i].action.value_or(_settings.mapAction), found[i].sides};
+    _scene.activate(group);
 }
 
-void MapPass::begin(osg::RenderInfo& renderInfo, const GLint (&viewport)[4], float languageVersion,
-                    bool isPaged)
+bool MapPass::addMany(const osgUtil::RenderLeaf& leaf)
 {
-    _contextID = renderInfo.getContextID();
-    _language = int(std::lround(languageVersion * 100.0f));
+    Occluder occluder;
+    occluder.isMany = true;
+    occluder.sides = MeshSides::Outward; // each object's are in its record
+    if (auto* run = dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
+    {
+        const std::optional<int> base = _resources.batches.recordBaseOf(*run);
+        occluder.recordBase = base.value_or(0);
+        if (base)
+            _occluders[&leaf] = occluder;
+        return true;
+    }
+    if (!ChunkMesh::isChunk(*leaf._drawable))
+        return false;
+    occluder.recordBase = int(_resources.objects.indexOf(0));
+    _occluders[&leaf] = occluder;
+    return true;
+}
+
+void MapPass::begin(osg::RenderInfo& renderInfo, const osg::Camera* camera,
+                    const GLint (&viewport)[4], bool isPaged)
+{
+    const osg::State& state = *renderInfo.getState();
+    _contextID = state.getContextID();
+    _language = int(std::lround(state.get<osg::GLExtensions>()->glslLanguageVersion * 100.0f));
     _isPaged = isPaged;
     std::copy(std::begin(viewport), std::end(viewport), std::begin(_viewport));
     _view = {double(viewport[0]), double(viewport[1]), double(viewport[0] + viewport[2]),
              double(viewport[1] + viewport[3])};
-    if (!_view.isEmpty())
-        place();
+    if (_view.isEmpty() || _labels.empty())
+        return;
+    if (state.getFrameStamp())
+        _time = state.getFrameStamp()->getSimulationTime();
+    place();
+    _inView = unsigned(_placed.size());
+    if (!_settings.declutter && _settings.mapTest == MapTest::Pixel)
+        return;
+    _memory = _scene.getMemory(camera);
+    if (_settings.declutter)
+        _memory->declutter(_placed, _view, _time);
 }
 
 void MapPass::place()
@@ -124,7 +166,7 @@ void MapPass::place()
         _isParallel = frame.isParallel;
         PlacedLabel placed;
         for (std::size_t i = group.begin; i < group.end; ++i)
-            if (placeLabel(_labels[i], frame, _scene.settings, placed))
+            if (placeLabel(_labels[i], frame, _settings, placed))
                 _placed.push_back(placed);
     }
     // The nearest is drawn last.
@@ -139,55 +181,97 @@ void MapPass::place()
               });
 }
 
-void MapPass::draw(osg::RenderInfo& renderInfo)
+void MapPass::upload(osg::State& state)
 {
-    if (_placed.empty())
-        return;
-    osg::State& state = *renderInfo.getState();
+    std::vector<std::uint32_t> last(_placed.size());
+    if (_settings.mapTest != MapTest::Pixel)
+        last = _memory->begin(state, _placed, _time);
     std::vector<MapQuads::Words> words;
     words.reserve(_placed.size());
-    for (const PlacedLabel& each : _placed)
+    for (std::size_t i = 0; i < _placed.size(); ++i)
     {
+        const PlacedLabel& each = _placed[i];
         const EyeLabel& label = *each.label;
         words.push_back({float(each.center.x()), float(each.center.y()), float(each.em),
                          label.width, float(each.anchor.x()), float(each.anchor.y()),
                          float(each.distance), 1.0f, label.identifier, label.own.first,
-                         label.own.last, label.style});
+                         label.own.last, label.style | last[i] << 8});
     }
     _quads = _scene.quads.acquire(_contextID, {});
     _quads->set(state, words);
+}
 
-    const bool hasNext = _targets && _targets->getNext();
-    osg::ref_ptr<osg::StateSet> pass = new osg::StateSet(
-        *_scene.programs.get({_language, int(_targets ? _actions.size() : 0), hasNext,
-                              _scene.settings.mapTest == MapTest::Anchor},
-                             _resources.getDefines(_isPaged, 0)));
-    pass->merge(*_scene.buffers.update(state));
-    _resources.updateGlyphs(*pass);
-    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
+/// Program, textures and uniforms that look at what stands before labels.
+osg::ref_ptr<osg::StateSet> MapPass::makePass(osg::State& state, bool isTest)
+{
+    MapPrograms::Kind kind;
+    kind.language = _language;
+    kind.layers = _targets ? int(_actions.size()) : 0;
+    kind.next = _targets && _targets->getNext();
+    kind.isTest = isTest;
+    kind.states = !isTest && _settings.mapTest != MapTest::Pixel;
+    kind.anchored = isTest && _settings.mapTest == MapTest::Anchor;
+    osg::ref_ptr<osg::StateSet> pass =
+        new osg::StateSet(*_scene.programs.get(kind, _resources.getDefines(_isPaged, 0)));
     const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
     { pass->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), Over); };
     texture(MapPrograms::LabelsUnit, _quads->getTexture());
     if (_targets)
         texture(MapTargets::NearUnit, _targets->getNear());
-    if (hasNext)
+    if (kind.next)
         texture(MapTargets::NextUnit, _targets->getNext());
+    if (kind.states)
+        texture(MapPrograms::StatesUnit, _memory->getStates());
+    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
     int actions[4] = {};
     for (std::size_t i = 0; i < _actions.size(); ++i)
         actions[i] = int(_actions[i]);
     add(new osg::Uniform("osgLabels_actions", actions[0], actions[1], actions[2], actions[3]));
     add(new osg::Uniform("osgLabels_isParallel", int(_isParallel)));
-    add(new osg::Uniform("osgLabels_isBack", int(_scene.settings.mapDepth == MapDepth::Back)));
+    add(new osg::Uniform("osgLabels_isBack", int(_settings.mapDepth == MapDepth::Back)));
     add(new osg::Uniform("osgLabels_pad",
                          osg::Vec2(float(LabelSettings::MapPadX), float(LabelSettings::MapPadY))));
+    add(new osg::Uniform("osgLabels_bounds", _viewport[0], _viewport[1],
+                         _viewport[0] + _viewport[2] - 1, _viewport[1] + _viewport[3] - 1));
+    pass->merge(*_scene.buffers.update(state));
+    return pass;
+}
+
+void MapPass::findStates(osg::RenderInfo& renderInfo)
+{
+    osg::State& state = *renderInfo.getState();
+    osgMultiRender::FramebufferVisit visit(state);
+    const osg::ref_ptr<osg::StateSet> pass = makePass(state, true);
+    _memory->bind(state, *pass, MapPrograms::StatesUnit);
+    const osg::Vec2 size = _memory->getSize();
+    pass->setAttribute(new osg::Viewport(0, 0, size.x(), size.y()), Over);
+    pass->setAttribute(new osg::Point(1.0f), Over);
+    pass->addUniform(new osg::Uniform("osgLabels_stateSize", size), Over);
+    pass->addUniform(
+        new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), secondsOfState)), Over);
+    state.pushStateSet(pass);
+    state.apply();
+    _quads->drawPoints(renderInfo);
+    state.popStateSet();
+}
+
+void MapPass::draw(osg::RenderInfo& renderInfo)
+{
+    if (_placed.empty())
+        return;
+    osg::State& state = *renderInfo.getState();
+    upload(state);
+    if (_settings.mapTest != MapTest::Pixel)
+        findStates(renderInfo);
+    const osg::ref_ptr<osg::StateSet> pass = makePass(state, false);
+    _resources.updateGlyphs(*pass);
+    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
     add(new osg::Uniform("osgLabels_viewport",
                          osg::Vec4(float(_viewport[0]), float(_viewport[1]),
                                    2.0f / float(_viewport[2]), 2.0f / float(_viewport[3]))));
-    add(new osg::Uniform("osgLabels_bounds", _viewport[0], _viewport[1],
-                         _viewport[0] + _viewport[2] - 1, _viewport[1] + _viewport[3] - 1));
-    add(new osg::Uniform("osgLabels_color", _scene.settings.mapColor));
-    add(new osg::Uniform("osgLabels_fade", _scene.settings.mapFade));
-    add(looksOf(_scene.settings.styles));
+    add(new osg::Uniform("osgLabels_color", _settings.mapColor));
+    add(new osg::Uniform("osgLabels_fade", _settings.mapFade));
+    add(looksOf(_settings.styles));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
                        Over);
     state.pushStateSet(pass);
@@ -218,7 +302,7 @@ MapAction MapPass::actionAt(osg::State& state, const PlacedLabel& label, int x, 
             if (isOwn(each.number) && (back < 0.0 || each.distance < back))
                 back = each.distance;
     }
-    if (_scene.settings.mapDepth == MapDepth::Back && back >= 0.0)
+    if (_settings.mapDepth == MapDepth::Back && back >= 0.0)
         distance = back;
     for (std::size_t i = 0; i < _actions.size(); ++i)
         if (foreign[i].number && foreign[i].distance < limitOf(distance))
@@ -237,13 +321,12 @@ std::uint32_t MapPass::pick(osg::State& state, double x, double y)
     {
         if (!label->plate.contains(px, py))
             continue;
-        const bool isAnchor = _scene.settings.mapTest == MapTest::Anchor;
-        const osg::Vec2d at = isAnchor ? label->anchor : osg::Vec2d(px, py);
-        const int column =
-            std::clamp(int(std::floor(at.x())), _viewport[0], _viewport[0] + _viewport[2] - 1);
-        const int row =
-            std::clamp(int(std::floor(at.y())), _viewport[1], _viewport[1] + _viewport[3] - 1);
-        if (actionAt(state, *label, column, row) != MapAction::Hide)
+        MapAction action;
+        if (_settings.mapTest == MapTest::Pixel)
+            action = actionAt(state, *label, int(std::floor(px)), int(std::floor(py)));
+        else
+            action = MapAction(_memory->read(state, std::size_t(_placed.rend() - label) - 1));
+        if (action != MapAction::Hide)
             return MapScene::FirstIdentifier + label->label->identifier;
     }
     return 0;
@@ -254,12 +337,14 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
     using Decision = osgMultiRender::PlanEntry::Decision;
     if (_labels.empty())
         return;
-    if (_placed.empty())
+    if (!_inView)
     {
         plan.entries.push_back({"map labels", Decision::Dropped, "none is in view"});
         return;
     }
-    std::string text = std::to_string(_placed.size()) + " in view";
+    std::string text = std::to_string(_inView) + " in view";
+    if (_placed.size() < _inView)
+        text += ", " + std::to_string(_inView - _placed.size()) + " make way for others";
     if (_drawn)
         text += ", " + std::to_string(_drawn) + " drawables may stand before them";
     if (_drawnNext)
@@ -270,6 +355,7 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
         text += ", " + std::to_string(_refused) + " don't because of their own programs";
     plan.entries.push_back({"map labels", Decision::Drawn, text});
     plan.counts["map.labels"] = double(_placed.size());
+    plan.counts["map.labels.inView"] = _inView;
     plan.counts["map.occluders"] = _drawn;
     plan.counts["map.occluders.second"] = _drawnNext;
     plan.counts["map.occluders.leftOut"] = _leftOut;

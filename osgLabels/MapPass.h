@@ -17,7 +17,7 @@ class LabelResources;
 class MapPass
 {
 public:
-    explicit MapPass(LabelResources& resources);
+    MapPass(LabelResources& resources, const LabelSettings& settings);
     ~MapPass();
 
     /// In cull: takes the leaves of the view.
@@ -25,12 +25,13 @@ public:
               const std::vector<const osgUtil::RenderLeaf*>& leaves);
 
     /// In draw. `viewport` is the view's, as GL says it.
-    void begin(osg::RenderInfo& renderInfo, const GLint (&viewport)[4], float languageVersion,
+    void begin(osg::RenderInfo& renderInfo, const osg::Camera* camera, const GLint (&viewport)[4],
                bool isPaged);
     /// Draws what may stand before labels into targets of its own.
     void drawOccluders(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame);
     /// Of a program with bits of MapBits.
-    void apply(osg::State& state, const osgUtil::RenderLeaf& leaf) const;
+    void apply(osg::State& state, const osgMultiRender::SurfaceVariant& variant,
+               const osgUtil::RenderLeaf& leaf) const;
     /// Draws the labels.
     void draw(osg::RenderInfo& renderInfo);
     /// The label on top at a place from -1 to 1 of the view, as it was drawn; 0 for none.
@@ -47,7 +48,10 @@ private:
         std::uint32_t number = 0;
         MapAction action = MapAction::Hide;
         MeshSides sides = MeshSides::Open;
-        bool isDrawn = false, isNext = false;
+        bool isMany = false; ///< Objects, each with a record.
+        int recordBase = 0;
+        int side = 0; ///< How it is drawn.
+        bool isDrawn = false;
     };
     /// Labels that share a projection.
     struct Group
@@ -56,17 +60,28 @@ private:
         std::size_t begin, end;
     };
 
+    /// Takes a leaf that holds many objects; false for others.
+    bool addMany(const osgUtil::RenderLeaf& leaf);
     void place();
     void select(osgMultiRender::SurfaceFrame& frame);
     bool boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& nearest) const;
+    /// Bits of the actions of what a Drawable holds.
+    std::uint32_t actionsOf(const Occluder& occluder) const;
     void drawLayer(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
                    bool next);
-    void drawSide(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
-                  bool next, int side);
+    osg::ref_ptr<osg::StateSet> stateOf(int layer, bool next, int side) const;
+    bool rekey(const osgMultiRender::SurfaceItem& item, MapAction action, bool next, int side,
+               osgMultiRender::SurfaceKey& key);
+    void upload(osg::State& state);
+    osg::ref_ptr<osg::StateSet> makePass(osg::State& state, bool isTest);
+    void findStates(osg::RenderInfo& renderInfo);
     MapAction actionAt(osg::State& state, const PlacedLabel& label, int x, int y);
 
     LabelResources& _resources;
     MapScene& _scene;
+    const LabelSettings _settings;
+    osg::ref_ptr<MapMemory> _memory;
+    double _time = 0.0;
     unsigned int _contextID = 0;
     int _language = 330;
     bool _isPaged = false;
@@ -80,10 +95,11 @@ private:
     std::unique_ptr<MapCoverage> _coverage;
     std::vector<MapAction> _actions; ///< In use, the strongest first.
     std::array<bool, NumMapActions> _needsNext{};
-    unsigned int _drawn = 0, _drawnNext = 0, _leftOut = 0;
+    unsigned int _inView = 0, _drawn = 0, _drawnNext = 0, _leftOut = 0;
     std::size_t _refused = 0;
     osg::ref_ptr<MapTargets> _targets;
     osg::ref_ptr<MapQuads> _quads;
+    osg::ref_ptr<BufferTexture> _records; ///< Null where there are none.
 };
 
 /// Bits of SurfaceKey::output that are the map's.
@@ -92,6 +108,7 @@ enum MapBits : std::uint32_t
     MapOccluder = 1u << 12,
     MapNext = 1u << 13,   ///< The second layer.
     MapOpaque = 1u << 14, ///< What has less than half of the opacity is left out.
+    MapMany = 1u << 15    ///< Objects have records.
 };
 
 } // namespace osgLabels

@@ -29,20 +29,34 @@ osg::ref_ptr<osg::Program> makeProgram(const MapPrograms::Kind& kind, const std:
     std::string head = "#define OSGLABELS_LAYERS " + std::to_string(kind.layers) + "\n";
     if (kind.next)
         head += "#define OSGLABELS_NEXT\n";
+    if (kind.states)
+        head += "#define OSGLABELS_STATES\n";
     if (kind.anchored)
         head += "#define OSGLABELS_ANCHORED\n";
+    const auto common = [](const char* name, const char* text)
+    { return LabelSources::file(Shader::FRAGMENT, name, text); };
+    const std::string table = common("labelTable.glsl", shaders::labelTable_glsl);
+    const std::string occlusion = common("occlusion.glsl", shaders::occlusion_glsl);
     osg::ref_ptr<osg::Program> program = new osg::Program;
-    program->setName("osgLabels map labels");
-    program->addShader(new Shader(
-        Shader::VERTEX,
-        version + defines +
-            LabelSources::file(Shader::FRAGMENT, "labelTable.glsl", shaders::labelTable_glsl) +
-            LabelSources::file(Shader::VERTEX, "mapLabel.vert", shaders::mapLabel_vert)));
-    program->addShader(new Shader(
-        Shader::FRAGMENT,
-        version + head + LabelSources::text(defines) +
-            LabelSources::file(Shader::FRAGMENT, "occlusion.glsl", shaders::occlusion_glsl) +
-            LabelSources::file(Shader::FRAGMENT, "mapLabel.frag", shaders::mapLabel_frag)));
+    const auto add = [&](Shader::Type type, const std::string& text)
+    { program->addShader(new Shader(type, version + head + text)); };
+    if (kind.isTest)
+    {
+        program->setName("osgLabels states of map labels");
+        add(Shader::VERTEX,
+            defines + table +
+                LabelSources::file(Shader::VERTEX, "mapTest.vert", shaders::mapTest_vert));
+        add(Shader::FRAGMENT, occlusion + common("mapTest.frag", shaders::mapTest_frag));
+    }
+    else
+    {
+        program->setName("osgLabels map labels");
+        add(Shader::VERTEX,
+            defines + table +
+                LabelSources::file(Shader::VERTEX, "mapLabel.vert", shaders::mapLabel_vert));
+        add(Shader::FRAGMENT, LabelSources::text(defines) + occlusion +
+                                  common("mapLabel.frag", shaders::mapLabel_frag));
+    }
     program->setThreadSafeRefUnref(true);
     return program;
 }
@@ -58,8 +72,11 @@ const osg::StateSet* MapPrograms::get(const Kind& kind, const std::string& defin
     stateSet = new osg::StateSet;
     stateSet->setThreadSafeRefUnref(true);
     stateSet->setAttributeAndModes(makeProgram(kind, defines), On);
-    stateSet->setAttributeAndModes(
-        new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA), On);
+    if (kind.isTest)
+        stateSet->setMode(GL_BLEND, Off);
+    else
+        stateSet->setAttributeAndModes(
+            new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA), On);
     stateSet->setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
     stateSet->setAttribute(new osg::PolygonMode, On);
     stateSet->setAttribute(new osg::ColorMask, On);
@@ -68,7 +85,8 @@ const osg::StateSet* MapPrograms::get(const Kind& kind, const std::string& defin
         stateSet->setMode(mode, Off);
     const std::pair<const char*, int> samplers[] = {{"osgLabels_near", MapTargets::NearUnit},
                                                     {"osgLabels_next", MapTargets::NextUnit},
-                                                    {"osgLabels_mapLabels", LabelsUnit}};
+                                                    {"osgLabels_mapLabels", LabelsUnit},
+                                                    {"osgLabels_states", StatesUnit}};
     for (const auto& [name, unit] : samplers)
         stateSet->addUniform(new osg::Uniform(name, unit));
     return stateSet.get();

@@ -21,18 +21,19 @@ public:
     {
         int language = 330; ///< Of GLSL, times 100.
         int layers = 0;     ///< Actions in use.
-        bool next = false, anchored = false;
+        bool next = false;
+        bool states = false;   ///< Labels are hidden as a whole.
+        bool isTest = false;   ///< The program that finds the states,
+        bool anchored = false; ///< from anchors.
 
-        bool operator<(const Kind& other) const
-        {
-            return std::tie(language, layers, next, anchored) <
-                   std::tie(other.language, other.layers, other.next, other.anchored);
-        }
+        auto tied() const { return std::tie(language, layers, next, states, isTest, anchored); }
+        bool operator<(const Kind& other) const { return tied() < other.tied(); }
     };
 
     enum Unit
     {
-        LabelsUnit = 2 ///< Beside those of MapTargets.
+        LabelsUnit = 2, ///< Beside those of MapTargets.
+        StatesUnit = 3
     };
 
     /// Program and state, with OVERRIDE. `defines`: of the glyphs and buffers.

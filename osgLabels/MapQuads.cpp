@@ -4,7 +4,31 @@
 namespace osgLabels
 {
 
+namespace
+{
+
+osg::ref_ptr<osg::Geometry> makeShape(GLenum mode, unsigned int corners)
+{
+    const osg::Vec3 places[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+    osg::ref_ptr<osg::Geometry> shape = new osg::Geometry;
+    shape->setVertexArray(new osg::Vec3Array(corners, places));
+    shape->addPrimitiveSet(new osg::DrawArrays(mode, 0, GLsizei(corners)));
+    shape->setUseDisplayList(false);
+    shape->setUseVertexBufferObjects(true);
+    return shape;
+}
+
+} // namespace
+
 MapQuads::~MapQuads() = default;
+
+void MapQuads::draw(osg::RenderInfo& renderInfo, const osg::Geometry& shape)
+{
+    shape.draw(renderInfo);
+    // osg::State tells arrays apart by their address: one that comes to lie where this one was
+    // must not be taken for it.
+    renderInfo.getState()->disableAllVertexArrays();
+}
 
 void MapQuads::set(osg::State& state, const std::vector<Words>& labels)
 {
@@ -12,15 +36,11 @@ void MapQuads::set(osg::State& state, const std::vector<Words>& labels)
     if (!_labels)
     {
         _labels = new BufferTexture(_contextID, 4, BufferTexture::needsPages(state));
-        const osg::Vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
-        _instances = new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-        _quad = new osg::Geometry;
-        _quad->setVertexArray(new osg::Vec3Array(4, corners));
-        _quad->addPrimitiveSet(_instances);
-        _quad->setUseDisplayList(false);
-        _quad->setUseVertexBufferObjects(true);
+        _quad = makeShape(GL_TRIANGLE_STRIP, 4);
+        _point = makeShape(GL_POINTS, 1);
     }
-    _instances->setNumInstances(int(labels.size()));
+    for (const auto& shape : {_quad, _point})
+        shape->getPrimitiveSet(0)->setNumInstances(int(labels.size()));
     _labels->resize(state, labels.size() * sizeof(Words));
     _labels->write(state, 0, labels.data(), labels.size() * sizeof(Words));
 }

@@ -34,7 +34,9 @@ public:
     Layout getLayout() const { return {}; }
     /// Uploads labels, in the order in which they are drawn.
     void set(osg::State& state, const std::vector<Words>& labels);
-    void draw(osg::RenderInfo& renderInfo) const { _quad->draw(renderInfo); }
+    void draw(osg::RenderInfo& renderInfo) const { draw(renderInfo, *_quad); }
+    /// A point each.
+    void drawPoints(osg::RenderInfo& renderInfo) const { draw(renderInfo, *_point); }
     const osg::StateAttribute* getTexture() const { return _labels.get(); }
     std::size_t getBytes() const { return _labels ? _labels->getBytes() : 0; }
 
@@ -42,10 +44,11 @@ protected:
     ~MapQuads() override;
 
 private:
+    static void draw(osg::RenderInfo& renderInfo, const osg::Geometry& shape);
+
     const unsigned int _contextID;
     osg::ref_ptr<BufferTexture> _labels;
-    osg::ref_ptr<osg::Geometry> _quad;
-    osg::ref_ptr<osg::DrawArrays> _instances;
+    osg::ref_ptr<osg::Geometry> _quad, _point;
 };
 
 } // namespace osgLabels

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/MapScene.h>
 
+#include <osgLabels/MapLabelFile.h>
+
 #include <osg/NodeVisitor>
 #include <osg/Notify>
 #include <osg/Transform>
+#include <osgDB/FileUtils>
+#include <osgDB/fstream>
 
 namespace osgLabels
 {
@@ -46,14 +50,17 @@ private:
 
 } // namespace
 
-MapScene::MapScene(const LabelSettings& s, std::shared_ptr<GlyphSet> glyphs, osg::Group& group)
-    : settings(s), features(
-                       classesOf(s), s.map == "off" ? MapFeatures::FoundValued()
-                                                    : [this](MapFeatures::Valued valued)
-                                         { addValued(std::move(valued)); }),
-      texts(std::move(glyphs), features), buffers(texts.getTable())
+MapScene::MapScene(const LabelSettings& settings, std::shared_ptr<GlyphSet> glyphs,
+                   const LabelBatches& batches, osg::Group& group)
+    : features(
+          classesOf(settings), settings.map == "off" ? MapFeatures::FoundValued()
+                                                     : [this](MapFeatures::Valued valued)
+                                   { addValued(std::move(valued)); }),
+      texts(std::move(glyphs), features), records(batches, features), buffers(texts.getTable())
 {
-    bool any = false;
+    if (settings.map != "off" && settings.map != "values")
+        readFile(settings.map);
+    bool any = settings.map != "off";
     MapLabelsVisitor visitor(
         [&](MapLabels& labels)
         {
@@ -61,8 +68,55 @@ MapScene::MapScene(const LabelSettings& s, std::shared_ptr<GlyphSet> glyphs, osg
             any = true;
         });
     group.accept(visitor);
-    if (any || s.map != "off")
+    if (_fileLabels)
+        _fileLabels->accept(visitor);
+    if (any)
         activate(group);
+}
+
+void MapScene::readFile(const std::string& file)
+{
+    const std::string found = osgDB::findDataFile(file);
+    osgDB::ifstream in(found.c_str(), std::ios::binary);
+    if (found.empty() || !in)
+    {
+        OSG_WARN << "osgLabels::LabelScene: map=" << file
+                 << ": there is no such file, so its labels are missing; name one beside the "
+                    "model, or on OSG_FILE_PATH"
+                 << std::endl;
+        return;
+    }
+    std::vector<std::string> warnings;
+    std::vector<MapLabel> labels = readMapLabels(in, found, warnings);
+    for (const std::string& warning : warnings)
+        OSG_WARN << "osgLabels::LabelScene: " << warning << std::endl;
+    _fileLabels = new MapLabels(std::move(labels));
+    _fileLabels->setName(found);
+}
+
+osg::ref_ptr<MapMemory> MapScene::getMemory(const osg::Camera* camera)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (auto each = _memories.begin(); each != _memories.end();)
+        if (each->first && !each->second.camera.valid())
+            each = _memories.erase(each);
+        else
+            ++each;
+    Memory& memory = _memories[camera];
+    if (!memory.memory)
+        memory = {camera, new MapMemory};
+    return memory.memory;
+}
+
+void MapScene::releaseGLObjects(osg::State* state)
+{
+    buffers.releaseGLObjects(state);
+    targets.releaseGLObjects(state);
+    quads.releaseGLObjects(state);
+    programs.releaseGLObjects(state);
+    records.releaseGLObjects(state);
+    std::lock_guard<std::mutex> lock(_mutex);
+    _memories.clear();
 }
 
 /// Called under the lock of features.
@@ -79,6 +133,7 @@ void MapScene::activate(osg::Group& group)
     else
         features.sweep(group, sweptPerFrame);
     _isActive = true;
+    records.update(group);
 }
 
 bool MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,

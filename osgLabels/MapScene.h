@@ -3,13 +3,17 @@
 
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/MapFeatures.h>
+#include <osgLabels/MapMemory.h>
 #include <osgLabels/MapPlacement.h>
 #include <osgLabels/MapPrograms.h>
 #include <osgLabels/MapQuads.h>
+#include <osgLabels/MapRecords.h>
 #include <osgLabels/MapTargets.h>
 #include <osgLabels/MapTexts.h>
 
 #include <osgMultiRender/TargetPool.h>
+
+#include <osg/Camera>
 
 namespace osgLabels
 {
@@ -19,7 +23,8 @@ class MapScene
 {
 public:
     /// Looks for labels below `group`, while nobody changes its subgraph.
-    MapScene(const LabelSettings& settings, std::shared_ptr<GlyphSet> glyphs, osg::Group& group);
+    MapScene(const LabelSettings& settings, std::shared_ptr<GlyphSet> glyphs,
+             const LabelBatches& batches, osg::Group& group);
 
     /// Identifiers of map labels count from here, those of surface labels lie below.
     static constexpr std::uint32_t FirstIdentifier = 0x40000000u;
@@ -31,9 +36,15 @@ public:
     /// Finds what stands before labels; from the first label in view on.
     void activate(osg::Group& group);
 
-    const LabelSettings settings;
+    /// The labels of the file that the settings name; null without one.
+    osg::Node* getFileLabels() const { return _fileLabels.get(); }
+    /// What the view of a camera remembers.
+    osg::ref_ptr<MapMemory> getMemory(const osg::Camera* camera);
+    void releaseGLObjects(osg::State* state);
+
     MapFeatures features;
     MapTexts texts;
+    MapRecords records;
     LabelBuffers buffers;
     osgMultiRender::TargetPool<MapTargets> targets;
     osgMultiRender::TargetPool<MapQuads> quads;
@@ -46,11 +57,19 @@ private:
         PreparedLabel label;
     };
     void addValued(MapFeatures::Valued valued);
+    void readFile(const std::string& file);
 
     std::mutex _mutex;
     std::vector<MapFeatures::Valued> _found; ///< Not yet in _valued.
     std::vector<Valued> _valued;
+    osg::ref_ptr<MapLabels> _fileLabels;
     bool _isActive = false;
+    struct Memory
+    {
+        osg::observer_ptr<const osg::Camera> camera;
+        osg::ref_ptr<MapMemory> memory;
+    };
+    std::map<const osg::Camera*, Memory> _memories;
 };
 
 } // namespace osgLabels

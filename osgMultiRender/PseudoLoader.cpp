@@ -3,6 +3,7 @@
 
 #include <osg/Node>
 #include <osgDB/FileNameUtils>
+#include <osgDB/FileUtils>
 #include <osgDB/ReadFile>
 #include <osgDB/Registry>
 
@@ -154,6 +155,12 @@ PseudoLoader::PseudoLoader(const std::string& suffix, const std::string& descrip
     supportsExtension(suffix, description);
 }
 
+osg::ref_ptr<osg::Node> PseudoLoader::wrapIn(const std::string&, osg::Node& model,
+                                             const Settings& settings, std::string& error) const
+{
+    return wrap(model, settings, error);
+}
+
 osgDB::ReaderWriter::ReadResult PseudoLoader::readObject(const std::string& file,
                                                          const Options* options) const
 {
@@ -180,7 +187,9 @@ osgDB::ReaderWriter::ReadResult PseudoLoader::readNode(const std::string& file,
     if (!result.validNode())
         return result;
     osg::ref_ptr<osg::Node> node = result.getNode();
-    osg::ref_ptr<osg::Node> wrapped = wrap(*node, settings, error);
+    const std::string found = osgDB::findDataFile(model, options);
+    osg::ref_ptr<osg::Node> wrapped =
+        wrapIn(osgDB::getFilePath(found.empty() ? model : found), *node, settings, error);
     if (!wrapped)
         return ReadResult(_suffix + ": " + error);
     return wrapped.get();

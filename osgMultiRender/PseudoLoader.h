@@ -52,6 +52,10 @@ protected:
     /// Puts the kit over `model`. Returns null and fills `error` when a setting is wrong.
     virtual osg::ref_ptr<osg::Node> wrap(osg::Node& model, const Settings& settings,
                                          std::string& error) const = 0;
+    /// Of a kit whose settings name files, which may lie in the model's folder ("" for the current
+    /// one): calls the other one unless it is overridden.
+    virtual osg::ref_ptr<osg::Node> wrapIn(const std::string& folder, osg::Node& model,
+                                           const Settings& settings, std::string& error) const;
 
 private:
     std::string _suffix;

@@ -4,10 +4,12 @@
 flat in vec4 osgLabels_text;
 flat in vec4 osgLabels_anchor;
 flat in uvec4 osgLabels_keys;
+#ifdef OSGLABELS_STATES
+flat in int osgLabels_state; // of the whole label
+#endif
 
 uniform vec4 osgLabels_looks[48];    // by style: ink, plate, outline (width in em)
 uniform vec2 osgLabels_pad;
-uniform ivec4 osgLabels_bounds;      // first and last pixel of the view
 uniform vec4 osgLabels_color;        // of what is recoloured
 uniform float osgLabels_fade;
 
@@ -28,11 +30,11 @@ float osgLabels_plateAt(vec2 at, vec2 size, float radius)
 
 void main()
 {
-    ivec2 p = clamp(ivec2(gl_FragCoord.xy), osgLabels_bounds.xy, osgLabels_bounds.zw);
-#ifdef OSGLABELS_ANCHORED
-    p = clamp(ivec2(osgLabels_anchor.xy), osgLabels_bounds.xy, osgLabels_bounds.zw);
+#ifdef OSGLABELS_STATES
+    int action = osgLabels_state;
+#else
+    int action = osgLabels_actionAt(ivec2(gl_FragCoord.xy), osgLabels_anchor.z, osgLabels_keys.yz);
 #endif
-    int action = osgLabels_actionAt(p, osgLabels_anchor.z, osgLabels_keys.yz);
     if (action == osgLabels_Hide)
         discard;
     float em = osgLabels_text.z;
@@ -57,8 +59,13 @@ void main()
         osgLabels_put(color, vec4(outline.rgb, 1.0), outline.a > 0.0 ? max(cover.x, cover.y) : 0.0);
         osgLabels_put(color, ink, cover.x);
     }
+#ifdef OSGLABELS_OUTLINE
     else
         osgLabels_put(color, ink, max(cover.y - cover.x, 0.0));
+#else
+    else // where a pixel is covered in part
+        osgLabels_put(color, ink, 4.0 * cover.x * (1.0 - cover.x));
+#endif
     float opacity = osgLabels_anchor.w * (action == osgLabels_Fade ? osgLabels_fade : 1.0);
     osgmr_out0 = color * opacity;
     if (osgmr_out0.a == 0.0)

@@ -7,6 +7,10 @@ uniform vec2 osgLabels_pad;                   // em between text and the edge of
 flat out vec4 osgLabels_text;    // middle of the text, em, its width in em
 flat out vec4 osgLabels_anchor;  // pixels, distance, opacity
 flat out uvec4 osgLabels_keys;   // text, own numbers from, to, style
+#ifdef OSGLABELS_STATES
+uniform sampler2D osgLabels_states;
+flat out int osgLabels_state;
+#endif
 
 void main()
 {
@@ -14,6 +18,12 @@ void main()
     osgLabels_text = uintBitsToFloat(osgLabels_texel(osgLabels_mapLabels, at));
     osgLabels_anchor = uintBitsToFloat(osgLabels_texel(osgLabels_mapLabels, at + 1u));
     osgLabels_keys = osgLabels_texel(osgLabels_mapLabels, at + 2u);
+    osgLabels_keys.w &= 0xffu;
+#ifdef OSGLABELS_STATES
+    int row = textureSize(osgLabels_states, 0).x;
+    osgLabels_state =
+        int(texelFetch(osgLabels_states, ivec2(gl_InstanceID % row, gl_InstanceID / row), 0).r + 0.5);
+#endif
     vec2 size = (vec2(0.5 * osgLabels_text.w, 0.5) + osgLabels_pad) * osgLabels_text.z + 1.0;
     vec2 low = osgLabels_text.xy - size, high = osgLabels_text.xy + size;
     low.y = min(low.y, osgLabels_anchor.y - 1.0);

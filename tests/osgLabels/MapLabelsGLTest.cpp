@@ -35,11 +35,10 @@ osg::ref_ptr<osg::Geode> before(const std::string& name = "before")
     return box(name, {-0.5f, -1, 0}, {0.5f, 0.2f, 0.7f}, {0.4f, 0.5f, 0.9f, 1});
 }
 
-/// Of the label alone.
-int whole(const std::string& text, const std::string& settings = std::string())
+/// Of the label alone; plates have edges, so that their place counts.
+int whole(const std::string& text, const osg::Vec3d& anchor = osg::Vec3d())
 {
-    const auto alone = scene({label(text, {})}, settings);
-    return redPixels(*render(*alone));
+    return redPixels(*render(*scene({label(text, anchor)})));
 }
 
 } // namespace
@@ -111,13 +110,44 @@ TEST_F(MapLabels, areHiddenByBothSidesOfOpenSheets)
     }
 }
 
-TEST_F(MapLabels, seeForeignFeaturesBehindTheirOwn)
+TEST_F(MapLabels, areHiddenByForeignFeaturesBehindTheirOwn)
 {
     // The eye's ray leaves the own feature first, then the other one, then comes the anchor.
     const auto far = box("far", {0, 1, 0}, {0.5f, 0.2f, 0.5f});
     const auto layers = scene({middle(), far, label("text", {0, 2, 0}, "middle")});
     EXPECT_EQ(redPixels(*render(*layers)), 0);
-    EXPECT_EQ(countOf(*layers, "map.occluders.second"), 2);
+    EXPECT_EQ(countOf(*layers, "map.occluders"), 1) << "the own feature takes no part";
+    EXPECT_EQ(countOf(*layers, "map.occluders.second"), 0);
     const auto own = scene({middle(), label("text", {0, 2, 0}, "middle")});
     EXPECT_EQ(redPixels(*render(*own)), whole("text"));
+}
+
+TEST_F(MapLabels, shareAPlaceWithThoseOfOtherFeatures)
+{
+    // Both boxes stand before both labels, each before its own too.
+    const auto far = box("far", {0, 1, 0}, {0.5f, 0.2f, 0.5f});
+    const auto both = scene({middle(), far, label("A", {0, 2, 0.1}, "middle"),
+                             label("B", {0, 2, -0.1}, "far"), label("C", {0, 2, 0})});
+    EXPECT_EQ(redPixels(*render(*both)), 0);
+    EXPECT_EQ(countOf(*both, "map.occluders.second"), 2);
+    const auto inner = scene(
+        {middle(), far, label("A", {0, 0.9, 0.1}, "middle"), label("B", {0, 0.9, -0.1}, "far")});
+    EXPECT_EQ(redPixels(*render(*inner)), whole("A", {0, 0.9, 0.1})) << "B is behind the middle";
+}
+
+TEST_F(MapLabels, ofAFeatureWithPartsAreHiddenByNoneOfThem)
+{
+    osg::ref_ptr<osg::Group> house = new osg::Group;
+    house->setName("house");
+    house->addChild(before("wing"));
+    house->addChild(middle("tower"));
+    const int all = whole("house", {-0.3, 0.5, 0}), wing = whole("wing", {0.7, -1, 0.5});
+    EXPECT_EQ(redPixels(*render(*scene({house, label("house", {-0.3, 0.5, 0}, "house")}))), all);
+    // The wing has a label of its own and stays a part of the house.
+    const auto nested = scene(
+        {house, label("house", {-0.3, 0.5, 0}, "house"), label("wing", {0.7, -1, 0.5}, "wing")});
+    EXPECT_EQ(redPixels(*render(*nested)), all + wing);
+    const auto tower = scene(
+        {house, label("tower", {-0.3, 0, 0}, "tower"), label("wing", {0.7, -1, 0.5}, "wing")});
+    EXPECT_EQ(redPixels(*render(*tower)), wing) << "the wing hides the tower's";
 }
