@@ -7,10 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 lit='.(shadows=off,lighting=pixel).shadowvolume'
 shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
 volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
-measuring=measuring labels=labels # have no plain form
+measuring=measuring labels=labels maplabels=maplabels # have no plain form
 while (($#)); do
     case $1 in
-        --plain) lit= shadowed= mask= volumes= maps= measuring= labels=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -36,14 +36,14 @@ done
 
 # Scenes that name the models that they show.
 mkdir -p "$scenes"
-cp examples/scenes/*.iv examples/scenes/*.wrl examples/scenes/*.osgt "$scenes"
+cp examples/scenes/*.iv examples/scenes/*.wrl examples/scenes/*.osgt examples/scenes/*.csv "$scenes"
 ln -sfn "$models" "$scenes/models"
 for refinery in "3000 refinery.osgb" "3000 refinery.iv" "60000 refinery60000.osgb"; do
     OSG_LIBRARY_PATH=build/lib build/bin/osgrefinery --objects "${refinery% *}" "$scenes/${refinery#* }" >"$out/osgrefinery.log"
 done
 
 scripts=()
-for script in shadows $labels $measuring chess machines robots scenes vehicles household formats; do
+for script in shadows $labels $maplabels $measuring chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"

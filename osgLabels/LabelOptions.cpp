@@ -171,7 +171,7 @@ LabelOption matchOption()
 
 LabelOption classOption()
 {
-    return {"mapclass", "<regular expression>:hide|outline|recolor|fade|ignore,...",
+    return {"mapclass", "<pattern:action>",
             "The same by the name, or the user value \"labelClass\", of what stands there",
             [](LabelSettings& settings, const std::string& text) -> std::string
             {

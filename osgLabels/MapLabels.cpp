@@ -3,6 +3,9 @@
 
 #include <osgUtil/CullVisitor>
 
+#include <algorithm>
+#include <cmath>
+
 namespace osgLabels
 {
 
@@ -39,7 +42,7 @@ osg::BoundingSphere MapLabels::computeBound() const
 {
     osg::BoundingBoxd box;
     for (const MapLabel& label : _labels)
-        if (label.anchor.valid() && !label.text.empty())
+        if (std::isfinite(label.anchor.length2()) && !label.text.empty())
             box.expandBy(label.anchor);
     if (!box.valid())
         return {};

@@ -153,7 +153,7 @@ bool MapPass::boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& near
     {
         const osg::Vec3d eye = osg::Vec3d(bound.corner(i)) * modelview;
         const osg::Vec4d clip = osg::Vec4d(eye, 1.0) * frame.projection;
-        if (!clip.valid() || !(clip.w() > 0.0))
+        if (!std::isfinite(clip.length2()) || !(clip.w() > 0.0))
             return false;
         const double x =
             _view.left + (0.5 + 0.5 * clip.x() / clip.w()) * (_view.right - _view.left);
@@ -225,6 +225,7 @@ std::uint32_t MapPass::actionsOf(const Occluder& occluder) const
 
 void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
 {
+    place(frame);
     if (_placed.empty())
         return;
     select(frame);

@@ -142,22 +142,41 @@ void MapPass::begin(osg::RenderInfo& renderInfo, const osg::Camera* camera,
     _language = int(std::lround(state.get<osg::GLExtensions>()->glslLanguageVersion * 100.0f));
     _isPaged = isPaged;
     std::copy(std::begin(viewport), std::end(viewport), std::begin(_viewport));
-    _view = {double(viewport[0]), double(viewport[1]), double(viewport[0] + viewport[2]),
-             double(viewport[1] + viewport[3])};
-    if (_view.isEmpty() || _labels.empty())
-        return;
     if (state.getFrameStamp())
         _time = state.getFrameStamp()->getSimulationTime();
-    place();
-    _inView = unsigned(_placed.size());
-    if (!_settings.declutter && _settings.mapTest == MapTest::Pixel)
+    if (!_labels.empty() && (_settings.declutter || _settings.mapTest != MapTest::Pixel))
+        _memory = _scene.getMemory(camera);
+}
+
+void MapPass::place(const osgMultiRender::SurfaceFrame& frame)
+{
+    if (_labels.empty())
         return;
-    _memory = _scene.getMemory(camera);
+    // A camera that is nested in the view has its viewport in the state of its leaves.
+    const osg::Viewport* own = nullptr;
+    frame.forEachItem(
+        [&](const osgMultiRender::SurfaceItem& item)
+        {
+            using osgMultiRender::SurfaceState;
+            if (item.state && !own)
+                own = static_cast<const osg::Viewport*>(item.state->get(SurfaceState::Viewport));
+        });
+    if (own)
+    {
+        const double values[] = {own->x(), own->y(), own->width(), own->height()};
+        std::copy(std::begin(values), std::end(values), std::begin(_viewport));
+    }
+    _view = {double(_viewport[0]), double(_viewport[1]), double(_viewport[0] + _viewport[2]),
+             double(_viewport[1] + _viewport[3])};
+    if (_view.isEmpty())
+        return;
+    placeAll();
+    _inView = unsigned(_placed.size());
     if (_settings.declutter)
         _memory->declutter(_placed, _view, _time);
 }
 
-void MapPass::place()
+void MapPass::placeAll()
 {
     for (const Group& group : _groups)
     {

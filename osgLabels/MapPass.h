@@ -62,7 +62,8 @@ private:
 
     /// Takes a leaf that holds many objects; false for others.
     bool addMany(const osgUtil::RenderLeaf& leaf);
-    void place();
+    void place(const osgMultiRender::SurfaceFrame& frame);
+    void placeAll();
     void select(osgMultiRender::SurfaceFrame& frame);
     bool boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& nearest) const;
     /// Bits of the actions of what a Drawable holds.

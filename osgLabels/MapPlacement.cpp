@@ -33,7 +33,7 @@ bool placeLabel(const EyeLabel& label, const MapFrame& frame, const LabelSetting
                 PlacedLabel& placed)
 {
     const osg::Vec4d clip = osg::Vec4d(label.anchor, 1.0) * frame.projection;
-    if (!clip.valid() || !(clip.w() > 0.0))
+    if (!std::isfinite(clip.length2()) || !(clip.w() > 0.0))
         return false;
     const PixelBox& v = frame.viewport;
     const double width = v.right - v.left, height = v.top - v.bottom;
@@ -44,7 +44,7 @@ bool placeLabel(const EyeLabel& label, const MapFrame& frame, const LabelSetting
         placed.em =
             std::min(settings.mapWorld * 0.5 * height * std::abs(frame.projection(1, 1)) / clip.w(),
                      largestEm);
-    if (!(placed.em > 0.5 * settings.readable) || !placed.anchor.valid())
+    if (!(placed.em > 0.5 * settings.readable) || !std::isfinite(placed.anchor.length2()))
         return false;
     const double halfWidth = (0.5 * double(label.width) + LabelSettings::MapPadX) * placed.em;
     const double halfHeight = (0.5 + LabelSettings::MapPadY) * placed.em;

@@ -37,7 +37,7 @@ void MapRecords::update(const osg::Group& group)
         return;
     _words.clear();
     _actions = 0;
-    set(0, {}); // what nobody knows
+    set(0, {}); // of what has no record
     _batches.forEach(
         [&](const PrimitiveBatch& batch, std::uint32_t first)
         {
@@ -57,7 +57,6 @@ void MapRecords::update(const osg::Group& group)
                     set(first + object, occluder);
                 }
         });
-    set(_batches.getNumObjects(), {});
     for (const Chunked& each : _chunked)
         if (each.object)
             set(_batches.getNumObjects() + each.object, _features.find(group, each.path));

@@ -90,7 +90,7 @@ std::shared_ptr<const std::vector<PreparedLabel>> MapTexts::of(const MapLabels& 
     std::size_t wrong = 0;
     for (const MapLabel& label : node.getLabels())
     {
-        const bool isRight = label.anchor.valid() && std::isfinite(label.priority);
+        const bool isRight = std::isfinite(label.anchor.length2()) && std::isfinite(label.priority);
         wrong += !isRight;
         if (isRight && !label.text.empty())
             labels->push_back(prepare(label));

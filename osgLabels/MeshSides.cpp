@@ -7,6 +7,7 @@
 #include <osg/TriangleFunctor>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <unordered_map>
@@ -30,6 +31,13 @@ struct PlaceHash
         return std::size_t(hash ^ hash >> 32);
     }
 };
+
+std::uint64_t edgeOf(std::uint32_t from, std::uint32_t to)
+{
+    const bool turned = to < from;
+    return std::uint64_t(turned ? to : from) << 33 | std::uint64_t(turned ? from : to) << 1 |
+           std::uint64_t(turned);
+}
 
 /// Numbers corners by their place, and keeps directed edges and the volume.
 struct ReadEdges
@@ -86,6 +94,73 @@ bool isClosed(std::vector<std::uint64_t>& edges)
     return !edges.empty();
 }
 
+/// For each corner another one at the same place but for rounding, as at the seams of round
+/// shapes, or itself.
+class Weld
+{
+public:
+    explicit Weld(const std::vector<osg::Vec3>& corners)
+    {
+        osg::BoundingBox box;
+        for (const osg::Vec3& corner : corners)
+            box.expandBy(corner);
+        // Four last bits of the largest coordinate, or of the mesh's size times 2^-20.
+        float largest = 0.0f;
+        for (int i = 0; i < 3; ++i)
+            largest = std::max({largest, std::abs(box._min[i]), std::abs(box._max[i])});
+        _tolerance = std::max(largest * 0x1p-22f, 2.0f * box.radius() * 0x1p-20f);
+        for (const osg::Vec3& corner : corners)
+            _partners.push_back(find(corner));
+    }
+    std::uint32_t operator[](std::uint32_t corner) const { return _partners[corner]; }
+
+private:
+    osg::Vec3 cellOf(const osg::Vec3& v) const
+    {
+        const float size = 4.0f * _tolerance;
+        return {std::floor(v.x() / size), std::floor(v.y() / size), std::floor(v.z() / size)};
+    }
+    std::uint32_t find(const osg::Vec3& v)
+    {
+        for (unsigned int side = 0; side < 8; ++side)
+        {
+            osg::Vec3 moved = v;
+            for (int i = 0; i < 3; ++i)
+                moved[i] += side >> i & 1u ? _tolerance : -_tolerance;
+            const auto cell = _cells.find(cellOf(moved));
+            if (cell != _cells.end() && (cell->second.first - v).length() <= _tolerance)
+                return cell->second.second;
+        }
+        const auto number = std::uint32_t(_partners.size());
+        _cells.emplace(cellOf(v), std::make_pair(v, number));
+        return number;
+    }
+
+    float _tolerance = 0.0f;
+    std::unordered_map<osg::Vec3, std::pair<osg::Vec3, std::uint32_t>, PlaceHash> _cells;
+    std::vector<std::uint32_t> _partners;
+};
+
+bool isClosed(const ReadEdges& read)
+{
+    std::vector<std::uint64_t> edges = read.edges;
+    if (isClosed(edges))
+        return true;
+    std::vector<osg::Vec3> corners(read.corners.size());
+    for (const auto& [place, number] : read.corners)
+        corners[number] = place;
+    const Weld weld(corners);
+    edges.clear();
+    for (const std::uint64_t edge : read.edges)
+    {
+        const std::uint32_t low = weld[std::uint32_t(edge >> 33)],
+                            high = weld[std::uint32_t(edge >> 1)];
+        if (low != high)
+            edges.push_back(edge & 1u ? edgeOf(high, low) : edgeOf(low, high));
+    }
+    return isClosed(edges);
+}
+
 } // namespace
 
 MeshSides sidesOf(const osg::Drawable& drawable)
@@ -96,7 +171,8 @@ MeshSides sidesOf(const osg::Drawable& drawable)
     if (!drawable.supports(functor))
         return MeshSides::Open;
     drawable.accept(functor);
-    if (!functor.isFinite || !isClosed(functor.edges) || functor.volume == 0.0)
+    if (!functor.isFinite || !isClosed(static_cast<const ReadEdges&>(functor)) ||
+        functor.volume == 0.0)
         return MeshSides::Open;
     return functor.volume > 0.0 ? MeshSides::Outward : MeshSides::Inward;
 }

@@ -16,7 +16,8 @@ enum class MeshSides
     Inward   ///< Closed; clockwise.
 };
 
-/// Looks at all triangles, in their local coordinates; corners at one place are one. Closed is a
+/// Looks at all triangles, in their local coordinates; corners at one place, but for
+/// rounding, are one. Closed is a
 /// mesh whose edges all have a partner that runs the other way. Points and lines are open.
 OSGLABELS_EXPORT MeshSides sidesOf(const osg::Drawable& drawable);
 

@@ -30,6 +30,19 @@ const std::map<std::string, std::string> Changed = {{"text", "value:tag"},
                                                     {"ink", "#ff8000"},
                                                     {"plate", "#10203080"},
                                                     {"outline", "#ffffff:0.05"},
+                                                    {"surface", "on"},
+                                                    {"map", "maps/labels of it.csv"},
+                                                    {"mapsize", "20.5"},
+                                                    {"mapworld", "2.5"},
+                                                    {"mapoffset", "12"},
+                                                    {"mapdepth", "back"},
+                                                    {"mapaction", "outline"},
+                                                    {"mapclass", "tree:fade,[a,b]{1,2}:hide"},
+                                                    {"maptest", "share"},
+                                                    {"mapleader", "40"},
+                                                    {"mapfade", "0.5"},
+                                                    {"mapcolor", "#ff0080"},
+                                                    {"declutter", "off"},
                                                     {"keys", "off"}};
 
 LabelSettings allChanged()
@@ -55,7 +68,12 @@ std::string knownOptions()
     return "text=name|description|value:<name>|<file.csv>|<file.json>, match=<regular expression>, "
            "font=<file>, proportional=on|off, size=<0.05..0.9>, gap=<0..1000>, readable=<0..100>, "
            "up=z|y|x|screen, texcoord=<-1..3>, chunk=on|off, ink=auto|<#rrggbb[aa]>, "
-           "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, keys=on|off";
+           "plate=auto|off|<#rrggbb[aa]>, outline=off|<#rrggbb:em>, surface=auto|on|off, "
+           "map=off|values|<file.csv>, mapsize=<1..1000>, mapworld=<0..1e+09>, "
+           "mapoffset=<0..1e+09>, mapdepth=anchor|back, "
+           "mapaction=hide|outline|recolor|fade|ignore, mapclass=<pattern:action>, "
+           "maptest=pixel|anchor|share, mapleader=<0..1000>, mapfade=<0..1>, "
+           "mapcolor=<#rrggbb>, declutter=on|off, keys=on|off";
 }
 
 } // namespace
@@ -90,6 +108,19 @@ TEST(LabelOptionsTest, settingsArriveInTheScene)
     EXPECT_EQ(settings.texCoord, 2);
     EXPECT_TRUE(settings.chunk);
     EXPECT_FALSE(settings.keys);
+    EXPECT_EQ(settings.surface, SurfaceLabels::On);
+    EXPECT_EQ(settings.map, "maps/labels of it.csv");
+    EXPECT_EQ(settings.mapSize, 20.5f);
+    EXPECT_EQ(settings.mapWorld, 2.5f);
+    EXPECT_EQ(settings.mapOffset, 12.0f);
+    EXPECT_EQ(settings.mapDepth, MapDepth::Back);
+    EXPECT_EQ(settings.mapAction, MapAction::Outline);
+    EXPECT_EQ(settings.mapClass, "tree:fade,[a,b]{1,2}:hide");
+    EXPECT_EQ(settings.mapTest, MapTest::Share);
+    EXPECT_EQ(settings.mapLeader, 40.0f);
+    EXPECT_EQ(settings.mapFade, 0.5f);
+    EXPECT_EQ(settings.mapColor, osg::Vec4(1.0f, 0.0f, 128.0f / 255.0f, 1.0f));
+    EXPECT_FALSE(settings.declutter);
     const LabelStyle& style = settings.styles.at(0);
     EXPECT_EQ(style.ink, osg::Vec4(1.0f, 128.0f / 255.0f, 0.0f, 1.0f));
     EXPECT_EQ(style.plate, osg::Vec4(16, 32, 48, 128) / 255.0f);
@@ -126,6 +157,9 @@ TEST(LabelOptionsTest, wrongTextIsNamedWithWhatMayBeSaid)
                                                  "neither off nor a colour and a width, 0 to "
                                                  "0.125: #ffffff:0.05");
     EXPECT_EQ(errorOf("match", "(").substr(0, 45), "setting 'match=(': '(' is no regular expressi");
+    EXPECT_EQ(errorOf("mapclass", "tree:vanish"),
+              "setting 'mapclass=tree:vanish': 'tree:vanish' is no <regular "
+              "expression>:hide|outline|recolor|fade|ignore");
     EXPECT_EQ(errorOf("sise", "2"), "setting 'sise=2' is not known; there are " + knownOptions());
 }
 
@@ -133,7 +167,8 @@ TEST(LabelOptionsTest, noOptionButThoseOfTextTakesAnythingElse)
 {
     for (const LabelOption& option : labelOptions())
     {
-        if (option.name == "text" || option.name == "font" || option.name == "match")
+        if (option.name == "text" || option.name == "font" || option.name == "match" ||
+            option.name == "map" || option.name == "mapclass")
             continue;
         for (const char* text :
              {"",        " ",        "x1",          "1x",      "0x10",     "nan",

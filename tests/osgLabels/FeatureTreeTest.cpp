@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <osgLabels/FeatureTree.h>
+
+#include <gtest/gtest.h>
+
+using osgLabels::FeatureTree;
+
+namespace
+{
+
+bool isIn(std::uint32_t number, const FeatureTree::Range& range)
+{
+    return number >= range.first && number <= range.last;
+}
+
+} // namespace
+
+TEST(FeatureTree, partsThatNoLabelNamesAreForeign)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "house");
+    EXPECT_EQ(tree.getNumber(house), FeatureTree::Foreign);
+    EXPECT_EQ(tree.getNumber(FeatureTree::Scene), FeatureTree::Foreign);
+    EXPECT_FALSE(isIn(FeatureTree::Foreign, tree.getRange(FeatureTree::None)));
+    EXPECT_FALSE(isIn(0, tree.getRange(FeatureTree::None)));
+    EXPECT_FALSE(isIn(FeatureTree::Foreign, tree.getRange(tree.use("none such"))));
+}
+
+TEST(FeatureTree, whatLiesInAFeatureIsOfIt)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "house");
+    const auto roof = tree.add(house, 2, "roof");
+    const auto name = tree.use("house");
+    EXPECT_TRUE(isIn(tree.getNumber(house), tree.getRange(name)));
+    EXPECT_EQ(tree.getNumber(roof), tree.getNumber(house));
+    const auto later = tree.add(roof, 3, "chimney");
+    EXPECT_EQ(tree.getNumber(later), tree.getNumber(house));
+    EXPECT_EQ(tree.add(roof, 3, "chimney"), later) << "once a key";
+}
+
+TEST(FeatureTree, featuresInsideOfAnotherHaveNumbersOfTheirOwnInItsRange)
+{
+    FeatureTree tree;
+    const auto city = tree.add(FeatureTree::Scene, 1, "city");
+    const auto house = tree.add(city, 2, "house");
+    const auto tower = tree.add(city, 3, "tower");
+    const auto cityName = tree.use("city"), houseName = tree.use("house");
+    EXPECT_NE(tree.getNumber(house), tree.getNumber(city));
+    EXPECT_TRUE(isIn(tree.getNumber(house), tree.getRange(cityName)));
+    EXPECT_TRUE(isIn(tree.getNumber(tower), tree.getRange(cityName)));
+    EXPECT_FALSE(isIn(tree.getNumber(tower), tree.getRange(houseName)));
+    EXPECT_FALSE(isIn(tree.getNumber(city), tree.getRange(houseName)));
+}
+
+TEST(FeatureTree, partsOfOneNameAreOneFeature)
+{
+    FeatureTree tree;
+    const auto a = tree.add(FeatureTree::Scene, 1, "tower");
+    const auto between = tree.add(FeatureTree::Scene, 2, "house");
+    const auto b = tree.add(FeatureTree::Scene, 3, "tower");
+    const auto inner = tree.add(b, 4, "clock");
+    const auto tower = tree.use("tower"), house = tree.use("house"), clock = tree.use("clock");
+    EXPECT_EQ(tree.getNumber(a), tree.getNumber(b));
+    EXPECT_FALSE(isIn(tree.getNumber(between), tree.getRange(tower)));
+    EXPECT_TRUE(isIn(tree.getNumber(between), tree.getRange(house)));
+    EXPECT_TRUE(isIn(tree.getNumber(inner), tree.getRange(clock)));
+    EXPECT_FALSE(isIn(tree.getNumber(inner), tree.getRange(house)));
+}
+
+TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
+{
+    FeatureTree tree;
+    const auto a = tree.add(FeatureTree::Scene, 1, "Building");
+    const auto b = tree.add(FeatureTree::Scene, 2, "Building");
+    tree.setLabelled(a);
+    tree.setLabelled(b);
+    EXPECT_NE(tree.getNumber(a), tree.getNumber(b));
+    EXPECT_TRUE(isIn(tree.getNumber(a), tree.getRangeOfPart(a)));
+    EXPECT_FALSE(isIn(tree.getNumber(b), tree.getRangeOfPart(a)));
+}
+
+TEST(FeatureTree, countsWhenNumbersChange)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "house");
+    tree.getNumber(house);
+    const unsigned int before = tree.getModifiedCount();
+    tree.add(house, 2, "roof");
+    tree.getNumber(house);
+    EXPECT_EQ(tree.getModifiedCount(), before) << "no label names it";
+    tree.use("roof");
+    tree.getNumber(house);
+    EXPECT_GT(tree.getModifiedCount(), before);
+    const unsigned int after = tree.getModifiedCount();
+    tree.use("roof");
+    tree.getNumber(house);
+    EXPECT_EQ(tree.getModifiedCount(), after);
+}
