@@ -24,7 +24,7 @@ int main(int argc, char** argv)
     Table table({"labels", "speed", "frames", "shown", "flips", "flips_per_label_and_second",
                  "most_of_one_in_a_second"});
     for (const double speed : {1.0, 0.25})
-        for (const char* test : {"pixel", "anchor", "share"})
+        for (const char* test : {"anchor", "share"})
             for (const bool hasPast : {true, false})
             {
                 MapFlight flight(town, std::string("maptest=") + test, hasPast);
