@@ -33,6 +33,5 @@ int main(int argc, char** argv)
                           {speed, double(flips.frames), flips.shown, double(flips.count),
                            flips.perLabelAndSecond, double(flips.most)});
             }
-    table.print();
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }
