@@ -144,8 +144,10 @@ long long constantOf(const GlslSource& source, std::size_t first, std::size_t la
 /// The sizes of an array, "[2][3]", outermost first. False if one is not known.
 bool arraySizes(const GlslSource& source, const GlslRange& range, std::vector<int>& sizes);
 
-/// Marks the entities that later renderings need not declare again; returns what was shared.
-void shareEntities(const std::vector<MergeProgram*>& programs, MergeStatistics& statistics);
+/// Marks the entities that later renderings need not declare again. `all`: not only the uniforms
+/// that OSG sets.
+void shareEntities(const std::vector<MergeProgram*>& programs, bool all,
+                   MergeStatistics& statistics);
 
 /// Finds what varyings and positions are worth, so that equal ones are known.
 void valueVaryings(MergeProgram& program);

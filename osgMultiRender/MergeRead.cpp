@@ -111,7 +111,9 @@ public:
                 collect(*stage, i);
             }
             checkMain(*stage);
+            findTaints(*stage);
         }
+        findDiscards();
     }
 
 private:
@@ -139,6 +141,74 @@ private:
     }
 
     bool isFragment(const MergeStage& stage) const { return &stage == &_program.fragment; }
+
+    /// Globals whose initializers read what main() sets up first: varyings, and what depends on
+    /// them.
+    void findTaints(MergeStage& stage)
+    {
+        for (const MergeShader& shader : stage.shaders)
+        {
+            const GlslSource& source = shader.source;
+            for (const GlslDeclaration& one : source.declarations)
+            {
+                const auto found = stage.entities.find(one.name);
+                if (one.kind != GlslDeclaration::Kind::Global || one.initializer.empty() ||
+                    found == stage.entities.end() || !readsMain(stage, source, one.initializer))
+                {
+                    continue;
+                }
+                found->second.tainted = true;
+                const bool main = std::any_of(
+                    source.functions.begin(), source.functions.end(),
+                    [](const GlslFunction& f) { return f.name == "main" && !f.body.empty(); });
+                if (!main || source.word(one.initializer.first) == "{")
+                {
+                    _program.fail(_files, shader, one.nameToken,
+                                  "the initializer of '" + one.name + "' can't be merged");
+                }
+            }
+        }
+    }
+
+    bool readsMain(const MergeStage& stage, const GlslSource& source, const GlslRange& range) const
+    {
+        static const std::set<std::string_view> written = {"gl_Color", "gl_SecondaryColor",
+                                                           "gl_TexCoord", "gl_FogFragCoord"};
+        for (std::size_t i = range.first; i < range.last; ++i)
+        {
+            const GlslUse::Kind use = source.uses[i].kind;
+            const auto found = stage.entities.find(std::string(source.word(i)));
+            const bool entity = (use == GlslUse::Kind::Global || use == GlslUse::Kind::BlockMember) &&
+                                found != stage.entities.end();
+            if (use == GlslUse::Kind::Function ||
+                (use == GlslUse::Kind::Builtin && isFragment(stage) && written.count(source.word(i))) ||
+                (entity && (found->second.tainted || found->second.kind == MergeEntity::Kind::Varying)))
+            {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Whether `discard` stands in a function that another one calls.
+    void findDiscards()
+    {
+        for (const MergeShader& shader : _program.fragment.shaders)
+        {
+            const GlslSource& source = shader.source;
+            for (const GlslFunction& function : source.functions)
+            {
+                for (std::size_t i = function.body.first;
+                     function.name != "main" && i < function.body.last; ++i)
+                {
+                    _program.discardsInLoops =
+                        _program.discardsInLoops ||
+                        (source.tokens[i].kind == GlslToken::Kind::Keyword &&
+                         source.word(i) == "discard");
+                }
+            }
+        }
+    }
 
     void checkMain(const MergeStage& stage)
     {

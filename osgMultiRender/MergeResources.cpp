@@ -271,6 +271,8 @@ private:
                 return;
             }
             one.type = "block";
+            one.ownBinding = layoutValue(source, specifiers, "binding");
+            one.binding = made.count(name) ? 0 : bindingFor(one.ownBinding, specifiers.has("buffer"));
         }
         else
         {
@@ -283,6 +285,12 @@ private:
                 return;
             }
             one.type = source.specifiersOf(declared).type;
+            if (one.merged == name && name.compare(0, 4, "osg_") == 0 &&
+                _osgTypes.emplace(name, one.type).first->second != one.type)
+            {
+                program.fail(program.rendering->name + ": the uniform '" + name + "' is " +
+                             one.type + ", but " + _osgTypes[name] + " in another rendering");
+            }
             std::vector<int> sizes;
             arraySizes(source, declared.array, sizes);
             arraySizes(source, source.specifiersOf(declared).typeArray, sizes);
@@ -312,6 +320,18 @@ private:
         kept.fragment = kept.fragment || isFragment;
         const int samplerCount = static_cast<int>(one.units.size());
         (isFragment ? s.fragmentSamplers : s.vertexSamplers) += samplerCount;
+    }
+
+    /// The binding that a block asks for, if it is free, else the next free one.
+    int bindingFor(int asked, bool storage)
+    {
+        std::set<int>& taken = _bindings[storage ? 1 : 0];
+        int binding = std::max(asked, 0);
+        while (!taken.insert(binding).second)
+        {
+            ++binding;
+        }
+        return binding;
     }
 
     int sizeOf(const GlslSource& source, const std::string& type, int depth) const
@@ -466,6 +486,8 @@ private:
     MergeNames& _names;
     const MergeOptions& _options;
     Merged& _merged;
+    std::set<int> _bindings[2];                  ///< Of uniform and of storage blocks.
+    std::map<std::string, std::string> _osgTypes; ///< Types of the uniforms that OSG sets.
 };
 
 } // namespace

@@ -252,6 +252,7 @@ private:
     /// What an initializer says is done in main(), when the varyings are there.
     void moveInitializer(const GlslDeclaration& one)
     {
+        _edit.removeQualifiers(_source.specifiersOf(one), {"const"});
         _moved += find(one.name)->merged + " = " + renamedText(one.initializer) + "; ";
         std::size_t equals = one.nameToken;
         while (equals < one.initializer.first && _source.word(equals) != "=")
@@ -472,6 +473,12 @@ private:
     {
         const std::size_t end = function.body.last;
         std::size_t at = skipBlanks(token + 1);
+        const auto calls = [&](const GlslUse& use) { return use.kind == GlslUse::Kind::Function; };
+        if (std::none_of(_source.uses.begin() + static_cast<std::ptrdiff_t>(token),
+                         _source.uses.begin() + static_cast<std::ptrdiff_t>(end), calls))
+        {
+            return;
+        }
         if (_source.word(token) == "do")
         {
             if (at >= end || _source.word(at) != "{")

@@ -203,10 +203,7 @@ private:
             return;
         }
         comparePositions(programs);
-        if (_options.share)
-        {
-            shareEntities(programs, _merged.statistics);
-        }
+        shareEntities(programs, _options.share, _merged.statistics);
         writeMerged(programs, _vectors, _options, _merged);
     }
 

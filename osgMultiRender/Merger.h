@@ -69,6 +69,8 @@ struct MergedUniform
     int arraySize = 0;  ///< 0: no array.
     bool vertex = false, fragment = false; ///< The stages that declare it.
     std::vector<unsigned int> units; ///< Of samplers: the texture unit of each element.
+    int ownBinding = -1; ///< Of blocks: the one that the rendering's text asks for.
+    int binding = -1;    ///< Of blocks: one that no other block of the program has.
 };
 
 struct MergedTexture
