@@ -391,13 +391,17 @@ private:
                 _program.discards = _program.discards || (isFragment(stage) && word == "discard");
                 continue;
             }
-            if (source.uses[i].kind != GlslUse::Kind::Builtin)
+            // Redeclared ones are globals: "varying vec4 gl_TexCoord[2];".
+            const GlslUse::Kind use = source.uses[i].kind;
+            const bool redeclared = use == GlslUse::Kind::Global && word.substr(0, 3) == "gl_" &&
+                                    source.declarations[source.uses[i].target].nameToken != i;
+            if (use != GlslUse::Kind::Builtin && !redeclared)
             {
                 continue;
             }
             const bool derives = isFragment(stage) && takesDerivatives(word);
             _program.derivatives = _program.derivatives || derives;
-            if (word.substr(0, 3) == "gl_")
+            if (word.substr(0, 3) == "gl_" || word == "ftransform")
             {
                 stage.usedBuiltins.emplace(word);
                 indexed(stage, source, i);

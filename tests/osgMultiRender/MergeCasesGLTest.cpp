@@ -16,11 +16,6 @@ constexpr double Step = 1.0 / 255.0;
 // Depths are 32-bit floats, of which means by weight are taken.
 constexpr double DepthStep = 1e-5;
 
-void PrintTo(const Rendering& rendering, std::ostream* out)
-{
-    *out << rendering.name;
-}
-
 std::string messagesOf(const Merged& merged)
 {
     std::string text;
@@ -31,7 +26,7 @@ std::string messagesOf(const Merged& merged)
     return text;
 }
 
-class MergeCasesGLTest : public ::testing::TestWithParam<Rendering>
+class MergeCasesGLTest : public ::testing::TestWithParam<std::size_t>
 {
 protected:
     void SetUp() override
@@ -76,9 +71,24 @@ protected:
             EXPECT_LE(difference.worst, Step) << merged.vertex << merged.fragment;
             EXPECT_LE(difference.worstDepth, DepthStep);
             EXPECT_EQ(difference.beside, 0u);
-            EXPECT_GT(difference.covered, 500u);
+            EXPECT_EQ(difference.covered > 500u, drawsAnything(alone));
             _compared = true;
         }
+    }
+
+    static bool drawsAnything(const std::vector<MergePicture>& pictures)
+    {
+        for (const MergePicture& picture : pictures)
+        {
+            for (std::size_t pixel = 0; pixel < picture.depths.size(); ++pixel)
+            {
+                if (picture.covered(pixel))
+                {
+                    return true;
+                }
+            }
+        }
+        return false;
     }
 
     PlainContext _context;
@@ -87,21 +97,22 @@ protected:
 
 TEST_P(MergeCasesGLTest, equalsTheBlendOfBoth)
 {
-    check({{&GetParam(), 1.0}, {&mergePartner(), 1.0}});
-    check({{&mergePartner(), 1.0}, {&GetParam(), 1.0}});
+    check({{&mergeCases()[GetParam()], 1.0}, {&mergePartner(), 1.0}});
+    check({{&mergePartner(), 1.0}, {&mergeCases()[GetParam()], 1.0}});
 }
 
 TEST_P(MergeCasesGLTest, equalsTheBlendWithItself)
 {
-    check({{&GetParam(), 1.0}, {&GetParam(), 1.0}});
+    check({{&mergeCases()[GetParam()], 1.0}, {&mergeCases()[GetParam()], 1.0}});
     EXPECT_TRUE(_compared || HasFailure());
 }
 
-std::string nameOf(const ::testing::TestParamInfo<Rendering>& info)
+std::string nameOf(const ::testing::TestParamInfo<std::size_t>& info)
 {
-    return info.param.name;
+    return mergeCases()[info.param].name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Cases, MergeCasesGLTest, ::testing::ValuesIn(mergeCases()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Cases, MergeCasesGLTest,
+                         ::testing::Range(std::size_t(0), mergeCases().size()), nameOf);
 
 } // namespace

@@ -59,7 +59,7 @@ void main() { float y = 0.25; { float y = y + x; float x = y; gl_FragColor = vec
 float f(float shade, float uv) { return shade * uv; }
 void main() { gl_FragColor = vec4(shade * f(uv.x, 0.5), 1.0); })"),
         mergeCase("declaredInFor", Head + R"(int i = 3; float sum = 0.25;
-void main() { for (int i = 0, j = 2; i < 4; ++i, ++j) { float sum = 1.0; gl_FragColor += vec4(uv * 0.1, sum * 0.1, 0.0) * float(j > 2); }
+void main() { gl_FragColor = vec4(0.0); for (int i = 0, j = 2; i < 4; ++i, ++j) { float sum = 1.0; gl_FragColor += vec4(uv * 0.1, sum * 0.1, 0.0) * float(j > 2); }
 gl_FragColor += vec4(sum) * float(i) * 0.1; })"),
         mergeCase("declaredInIfAndWhile", Head + R"(float a = 0.5; bool go = true;
 void main() { float s = 0.0; if (uv.x > 0.5) { float a = 0.25; s += a; } else { s += a; }
@@ -83,9 +83,9 @@ void main() { Data d = Data(0.25, vec3(uv, 0.0), 0.125); gl_FragColor = vec4(d.n
 void main() { vec4 c = vec4(rgb, x); c.xy += uv.xy * xy; c.rgb *= rgb.x + x; gl_FragColor = vec4(c.xyz, 1.0); })"),
         mergeCase("overloads", Head + R"(float f(float x) { return x * 0.5; } float f(vec2 x) { return x.x * 0.25; } vec3 f(float x, float y) { return vec3(x, y, f(x)); }
 void main() { gl_FragColor = vec4(f(uv.x, f(uv)), 1.0); })"),
-        mergeCase("overloadsABuiltin", Head + R"(float max(float a, float b, float c) { return max(max(a, b), c); }
-vec3 mix(vec3 a, vec3 b) { return mix(a, b, 0.25); }
-void main() { gl_FragColor = vec4(mix(vec3(max(uv.x, uv.y, 0.5)), vec3(0.25)), max(uv.x, 0.5)); })"),
+        mergeCase("overloadsABuiltin", Head + R"(float max(float a, float b, float c) { return a > b ? c : b; }
+vec3 mix(vec3 a, vec3 b) { return a * 0.75 + b * 0.25; }
+void main() { gl_FragColor = vec4(mix(vec3(max(uv.x, uv.y, 0.5)), vec3(0.25)), 1.0); })"),
         mergeCase("functionNamedAsLaterBuiltin", Head + R"(float round(float x) { return floor(x + 0.5) * 0.25; } mat3 inverse(mat3 m) { return m * 0.5; }
 vec3 texture(vec2 at) { return vec3(at, 0.5); } float isnan(float a) { return a * 0.25; }
 void main() { gl_FragColor = vec4(inverse(mat3(1.0)) * texture(uv) + round(uv.x) + isnan(uv.y), 1.0); })"),
@@ -94,7 +94,7 @@ void main() { gl_FragColor = vec4(g(vec3(uv, 0.0), f(uv.x)), 1.0); }
 vec3 g(in vec3 a, float b) { return a * b; } float f(float x) { return x * 0.5; })"),
         mergeCase("declaredTogether", Head + R"(uniform vec3 A, B; float a, b = 0.5, c[2];
 void main() { a = 0.25; c[0] = uv.x; c[1] = uv.y; gl_FragColor = vec4(A * a + B * b * c[0] * c[1], 1.0); })"),
-        mergeCase("constantsOfConstants", Head + R"(const int N = 2; const int M = N * 2 - 1; const float W[M] = float[M](0.25, 0.5, 0.125);
+        mergeCase("constantsOfConstants", "#version 120\n" + Head + R"(const int N = 2; const int M = N * 2 - 1; const float W[M] = float[M](0.25, 0.5, 0.125);
 float sums[N + 1];
 void main() { for (int i = 0; i < M; ++i) sums[i] = W[i] * uv.x; gl_FragColor = vec4(sums[0], sums[1], sums[2], 1.0); })"),
         mergeCase("changedGlobals", Head + R"(vec3 tint = vec3(0.25); int count = 0;

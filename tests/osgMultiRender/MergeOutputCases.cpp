@@ -82,7 +82,7 @@ void main() { gl_FragColor = vec4(0.25, 0.25, 0.25, 1.0); put(gl_FragColor); })"
 })"),
         mergeCase("discardsInACallee", Head + R"(void cut(float x) { if (x > 0.5) { discard; } }
 void main() { cut(fract(uv.x * 3.0)); gl_FragColor = vec4(uv, 0.0, 1.0); })"),
-        mergeCase("discardsInAFunctionWithResult", Head + R"(struct Hit { vec3 at; float t; };
+        mergeCase("discardsInAFunctionWithResult", "#version 120\n" + Head + R"(struct Hit { vec3 at; float t; };
 Hit trace(float x) { if (x > 0.5) discard; return Hit(vec3(x), x); }
 float[2] two(float x) { if (x < 0.1) discard; return float[2](x, x); }
 void main() { Hit h = trace(fract(uv.x * 3.0)); gl_FragColor = vec4(h.at, h.t) * two(uv.y)[1]; })"),

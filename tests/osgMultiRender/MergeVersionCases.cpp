@@ -15,6 +15,14 @@ std::string coreVertex(const std::string& version, const std::string& rest)
            "\nvoid main() { uv = position.xy; gl_Position = vec4(position.xy * 0.7, position.z, 1.0); }";
 }
 
+Rendering webGl1()
+{
+    Rendering one = mergeCase("webGl1", "#version 100\nprecision mediump float;\nvarying vec2 uv;\nuniform lowp vec3 tint;\nvoid main() { gl_FragColor = vec4(tint * uv.x, 1.0); }",
+                  "#version 100\nattribute vec3 weight;\nvarying vec2 uv;\nattribute vec4 position;\nvoid main() { uv = position.xy + weight.xy * 0.1; gl_Position = vec4(position.xy * 0.7, position.z, 1.0); }");
+    one.attributeBindings = {{"position", 0}, {"weight", 5}};
+    return one;
+}
+
 } // namespace
 
 std::vector<Rendering> versionCases()
@@ -35,8 +43,7 @@ void main() { shared s = shared(0.5, 0.25); float flat = s.precise; vec2 smooth 
         mergeCase("variablesNamedAsLaterBuiltins", Head + R"(uniform float round; vec2 texture = vec2(0.5); float inverse = 0.25;
 void main() { float isnan = 0.5; gl_FragColor = vec4(uv * texture * round, inverse * isnan, 1.0); })"),
         mergeCase("precisionOfTheWeb", "#ifdef GL_ES\nprecision mediump float;\n#endif\n" + Head + "void main() { gl_FragColor = vec4(uv, 0.25, 1.0); }"),
-        mergeCase("webGl1", "#version 100\nprecision mediump float;\nvarying vec2 uv;\nuniform lowp vec3 tint;\nvoid main() { gl_FragColor = vec4(tint * uv.x, 1.0); }",
-                  "#version 100\nattribute vec3 weight;\nvarying vec2 uv;\nattribute vec4 position;\nvoid main() { uv = position.xy + weight.xy * 0.1; gl_Position = vec4(position.xy * 0.7, position.z, 1.0); }"),
+        webGl1(),
         mergeCase("webGl2", "#version 300 es\nprecision highp float;\nin vec2 uv;\nout vec4 color;\nvoid main() { color = vec4(uv, 0.25, 1.0); }",
                   coreVertex("300 es", "out vec2 uv;")),
         mergeCase("core330", "#version 330 core\nin vec2 uv;\nout vec4 color;\nvec4 texture2D(vec2 x) { return vec4(x, 0.25, 1.0); }\nvoid main() { color = texture2D(uv); }",
