@@ -17,7 +17,8 @@ using Kind = MergeEntity::Kind;
 
 bool isSampler(std::string_view type)
 {
-    return type.substr(0, 7) == "sampler" || type.substr(1, 7) == "sampler";
+    return type.substr(0, 7) == "sampler" ||
+           (type.size() > 8 && type.substr(1, 7) == "sampler");
 }
 
 /// Components of a built-in type; 0 for others.
