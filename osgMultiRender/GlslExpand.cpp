@@ -212,7 +212,8 @@ private:
         for (const GlslWord& word : expanded)
         {
             const char before = _result.text.empty() ? ' ' : _result.text.back();
-            const bool blank = word.space || (!word.text.empty() && needsBlank(before, word.text[0]));
+            const bool blank =
+                word.space || (!word.text.empty() && needsBlank(before, word.text[0]));
             _result.text += blank && before != ' ' ? " " : "";
             _result.text += word.text;
         }

@@ -106,8 +106,8 @@ void readShaderUniforms(Rendering& rendering, const std::string& text)
         {
             const std::string comment(source.word(i));
             const std::size_t equals = comment.find_first_not_of("/*! \t");
-            if (source.tokens[i].kind == GlslToken::Kind::Comment &&
-                equals != std::string::npos && comment[equals] == '=')
+            if (source.tokens[i].kind == GlslToken::Kind::Comment && equals != std::string::npos &&
+                comment[equals] == '=')
             {
                 readValues(rendering, uniform, comment, equals + 1);
             }
@@ -229,7 +229,8 @@ Rendering importRendering(const std::string& fileName)
         Rendering unknown;
         unknown.name = baseName(fileName);
         unknown.fileName = fileName;
-        say(unknown, true, "not a file that can be imported: .gdp, .vert, .frag, .vs, .fs or .glsl");
+        say(unknown, true,
+            "not a file that can be imported: .gdp, .vert, .frag, .vs, .fs or .glsl");
         return unknown;
     }
     const bool shortNames = extension == ".vs" || extension == ".fs";

@@ -184,8 +184,8 @@ private:
             {
                 texture.wrap[i] = enumeration(element, wraps[i], texture.wrap[i]);
             }
-            for (const char* face : {"FilenameX", "Filename_X", "FilenameY", "Filename_Y",
-                                     "FilenameZ", "Filename_Z"})
+            for (const char* face :
+                 {"FilenameX", "Filename_X", "FilenameY", "Filename_Y", "FilenameZ", "Filename_Z"})
             {
                 const std::string name = element.attribute(face).as_string();
                 if (!name.empty())
@@ -224,8 +224,8 @@ private:
 
     void uniform(pugi::xml_node element)
     {
-        static const char* const types[] = {"",      "int",  "ivec2", "ivec3", "ivec4", "float",
-                                            "vec2",  "vec3", "vec4",  "mat2",  "mat3",  "mat4"};
+        static const char* const types[] = {"",     "int",  "ivec2", "ivec3", "ivec4", "float",
+                                            "vec2", "vec3", "vec4",  "mat2",  "mat3",  "mat4"};
         RenderingUniform one;
         one.name = element.attribute("Name").as_string();
         if (one.name.empty())
@@ -238,8 +238,9 @@ private:
         const double size = number(element, "ArraySize", 1.0);
         if (!(size >= 1.0 && size <= 4096.0))
         {
-            say(_rendering, false, "uniform '" + one.name + "' has an array size of " +
-                                       element.attribute("ArraySize").as_string());
+            say(_rendering, false,
+                "uniform '" + one.name + "' has an array size of " +
+                    element.attribute("ArraySize").as_string());
         }
         one.arraySize = size >= 1.0 && size <= 4096.0 ? static_cast<int>(size) : 1;
         one.minimum = number(element, "Min", 0.0);

@@ -23,16 +23,16 @@ constexpr char Head[] =
     "#version 330 compatibility\n"
     "uniform vec3 iResolution; uniform float osg_FrameTime; uniform float osg_DeltaFrameTime; "
     "uniform int osg_FrameNumber; uniform vec4 iMouse; uniform vec4 iDate; "
-    "uniform float iSampleRate; uniform float iChannelTime[4]; uniform vec3 iChannelResolution[4];\n"
+    "uniform float iSampleRate; uniform float iChannelTime[4]; uniform vec3 "
+    "iChannelResolution[4];\n"
     "#define iTime osg_FrameTime\n"
     "#define iTimeDelta osg_DeltaFrameTime\n"
     "#define iFrameRate (1.0 / osg_DeltaFrameTime)\n"
     "#define iFrame osg_FrameNumber\n"
     "in vec2 osgmr_at; out vec4 osgmr_image;\n";
 
-constexpr char Main[] =
-    "\nvoid main() { osgmr_image = vec4(0.0, 0.0, 0.0, 1.0); "
-    "mainImage(osgmr_image, osgmr_at * iResolution.xy); }\n";
+constexpr char Main[] = "\nvoid main() { osgmr_image = vec4(0.0, 0.0, 0.0, 1.0); "
+                        "mainImage(osgmr_image, osgmr_at * iResolution.xy); }\n";
 
 } // namespace
 

@@ -81,8 +81,8 @@ private:
             const bool builtin = output.name.compare(0, 3, "gl_") == 0;
             const std::string name = builtin ? _program.fragment.builtins[output.name]
                                              : _program.fragment.entities[output.name].merged;
-            const int size = output.name == "gl_FragData" ? _program.fragment.fragData
-                                                          : output.arraySize;
+            const int size =
+                output.name == "gl_FragData" ? _program.fragment.fragData : output.arraySize;
             for (int i = 0; i < std::max(size, 1); ++i)
             {
                 const std::string element = size ? name + "[" + std::to_string(i) + "]" : name;
@@ -92,7 +92,10 @@ private:
             {
                 location = output.location;
                 const bool known = output.elements.empty() || output.elements.front() == 0;
-                color(output.type, size ? name + (known ? "[0]" : "[" + std::to_string(output.elements.front()) + "]") : name);
+                color(output.type,
+                      size ? name + (known ? "[0]"
+                                           : "[" + std::to_string(output.elements.front()) + "]")
+                           : name);
             }
         }
         if (wrapped.outputs.size() > 1)
@@ -109,9 +112,10 @@ private:
         }
         else if (type == "vec3" || type == "vec2" || type == "float")
         {
-            _program.color = "vec4(" + value + (type == "vec3"   ? ", 1.0)"
-                                                : type == "vec2" ? ", 0.0, 1.0)"
-                                                                 : ", 0.0, 0.0, 1.0)");
+            _program.color = "vec4(" + value +
+                             (type == "vec3"   ? ", 1.0)"
+                              : type == "vec2" ? ", 0.0, 1.0)"
+                                               : ", 0.0, 0.0, 1.0)");
         }
         else
         {
@@ -187,12 +191,13 @@ private:
             }
         }
         std::vector<int> sizes;
-        const bool known = arraySizes(source, one.array, sizes) &&
-                           arraySizes(source, specifiers.typeArray, sizes);
+        const bool known =
+            arraySizes(source, one.array, sizes) && arraySizes(source, specifiers.typeArray, sizes);
         if (!known || !takeApart(source, specifiers.type, sizes, 0, expression, side))
         {
             _program.fail(_files, stage.shaders[shader], one.nameToken,
-                          "the varying '" + one.name + "' is of a type or size that can't be merged");
+                          "the varying '" + one.name +
+                              "' is of a type or size that can't be merged");
         }
         return side;
     }
@@ -284,8 +289,8 @@ private:
                 std::vector<int> sizes(level, 1);
                 if (!arraySizes(source, field.array, sizes) ||
                     !arraySizes(source, specifiers.typeArray, sizes) ||
-                    !takeApart(source, specifiers.type, sizes, level,
-                               expression + "." + field.name, side))
+                    !takeApart(source, specifiers.type, sizes, level, expression + "." + field.name,
+                               side))
                 {
                     return false;
                 }
@@ -301,7 +306,8 @@ private:
         if (found == vertex.end() && fragment.location >= 0)
         {
             // From GLSL 410 on locations join, whatever the names.
-            found = std::find_if(vertex.begin(), vertex.end(), [&](const auto& one)
+            found = std::find_if(vertex.begin(), vertex.end(),
+                                 [&](const auto& one)
                                  { return one.second.location == fragment.location; });
         }
         const MergeShader& shader = _program.fragment.shaders[fragment.shader];
@@ -366,9 +372,7 @@ private:
         const RenderingState& state = _program.rendering->state;
         const std::string interpolation = state.shadeModel == GLFlat ? "flat" : "";
         const auto clamped = [&](const std::string& name)
-        {
-            return name.empty() || !_clampColors ? name : "clamp(" + name + ", 0.0, 1.0)";
-        };
+        { return name.empty() || !_clampColors ? name : "clamp(" + name + ", 0.0, 1.0)"; };
         const std::string pairs[][3] = {
             {"gl_Color", "gl_FrontColor", "gl_BackColor"},
             {"gl_SecondaryColor", "gl_FrontSecondaryColor", "gl_BackSecondaryColor"}};
@@ -382,8 +386,8 @@ private:
                     "!gl_FrontFacing");
             }
         }
-        add(builtin(_program.vertex, "gl_FogFragCoord"), builtin(_program.fragment, "gl_FogFragCoord"),
-            1, "");
+        add(builtin(_program.vertex, "gl_FogFragCoord"),
+            builtin(_program.fragment, "gl_FogFragCoord"), 1, "");
     }
 
     void coordinates()
@@ -407,26 +411,6 @@ private:
 };
 
 } // namespace
-
-std::set<std::string> usedGlobals(const MergeStage& stage)
-{
-    std::set<std::string> used;
-    for (const MergeShader& shader : stage.shaders)
-    {
-        const GlslSource& source = shader.source;
-        for (std::size_t i = 0; i < source.tokens.size(); ++i)
-        {
-            const GlslUse& use = source.uses[i];
-            const bool variable =
-                use.kind == GlslUse::Kind::Global || use.kind == GlslUse::Kind::BlockMember;
-            if (variable && source.declarations[use.target].nameToken != i)
-            {
-                used.emplace(source.word(i));
-            }
-        }
-    }
-    return used;
-}
 
 void connectStages(MergeProgram& program, const std::vector<MergedFile>& files, bool clampColors)
 {

@@ -13,13 +13,12 @@ namespace
 using Kind = MergeEntity::Kind;
 
 /// Built-ins that each rendering writes or reads for itself, by stage.
-constexpr const char* VertexBuiltins[] = {"gl_Position",   "gl_PointSize",
-                                          "gl_ClipVertex", "gl_ClipDistance",
-                                          "gl_FrontColor", "gl_BackColor",
-                                          "gl_FrontSecondaryColor", "gl_BackSecondaryColor",
-                                          "gl_TexCoord",   "gl_FogFragCoord"};
-constexpr const char* FragmentBuiltins[] = {"gl_FragColor", "gl_FragData",      "gl_FragDepth",
-                                            "gl_Color",     "gl_SecondaryColor", "gl_TexCoord",
+constexpr const char* VertexBuiltins[] = {
+    "gl_Position",   "gl_PointSize",   "gl_ClipVertex",          "gl_ClipDistance",
+    "gl_FrontColor", "gl_BackColor",   "gl_FrontSecondaryColor", "gl_BackSecondaryColor",
+    "gl_TexCoord",   "gl_FogFragCoord"};
+constexpr const char* FragmentBuiltins[] = {"gl_FragColor",   "gl_FragData",       "gl_FragDepth",
+                                            "gl_Color",       "gl_SecondaryColor", "gl_TexCoord",
                                             "gl_FogFragCoord"};
 
 /// "gl_FragColor" as "fragColor".

@@ -20,7 +20,8 @@ std::vector<MergeVector> packVaryings(const std::vector<MergeProgram*>& programs
         }
     }
     // Large ones first: what is left of four components fits small ones.
-    std::stable_sort(all.begin(), all.end(), [](const MergeVarying* a, const MergeVarying* b)
+    std::stable_sort(all.begin(), all.end(),
+                     [](const MergeVarying* a, const MergeVarying* b)
                      { return a->components > b->components; });
     std::vector<MergeVector> vectors;
     statistics.sharedVaryings = 0;
@@ -28,8 +29,8 @@ std::vector<MergeVector> packVaryings(const std::vector<MergeProgram*>& programs
     std::map<std::string, const MergeVarying*> byValue;
     for (MergeVarying* one : all)
     {
-        const std::string key = one->base + std::to_string(one->components) + one->interpolation +
-                                " " + one->value;
+        const std::string key =
+            one->base + std::to_string(one->components) + one->interpolation + " " + one->value;
         if (share && !one->value.empty())
         {
             const auto [found, added] = byValue.emplace(key, one);
@@ -43,10 +44,9 @@ std::vector<MergeVector> packVaryings(const std::vector<MergeProgram*>& programs
             }
         }
         std::size_t slot = 0;
-        while (slot < vectors.size() &&
-               (vectors[slot].base != one->base ||
-                vectors[slot].interpolation != one->interpolation ||
-                vectors[slot].used + one->components > 4))
+        while (slot < vectors.size() && (vectors[slot].base != one->base ||
+                                         vectors[slot].interpolation != one->interpolation ||
+                                         vectors[slot].used + one->components > 4))
         {
             ++slot;
         }

@@ -22,6 +22,7 @@ struct MergeShader
 
     /// The line of a token as its author counts: "#line" moves it.
     unsigned int lineOf(std::size_t token) const;
+    unsigned int authorLine(unsigned int line) const;
 };
 
 /// A global name of one stage, with all its declarations: overloads are one entity.
@@ -48,9 +49,9 @@ struct MergeEntity
 
     Kind kind = Kind::Variable;
     std::vector<Place> places;
-    std::string merged;   ///< Its name, or an expression, in the merged text.
-    bool inPlace = true;  ///< False: declared elsewhere: by another rendering or at the head.
-    bool tainted = false; ///< Its initializer depends on what main() sets up.
+    std::string merged;       ///< Its name, or an expression, in the merged text.
+    bool inPlace = true;      ///< False: declared elsewhere: by another rendering or at the head.
+    bool tainted = false;     ///< Its initializer depends on what main() sets up.
     bool localStruct = false; ///< A function declares a struct of that name, too.
 };
 
@@ -58,11 +59,12 @@ struct MergeStage
 {
     std::vector<MergeShader> shaders;
     std::map<std::string, MergeEntity> entities;
-    std::map<std::string, std::string> builtins; ///< "gl_FragColor" to the global that stands for it.
+    std::map<std::string, std::string>
+        builtins; ///< "gl_FragColor" to the global that stands for it.
     std::map<std::string, std::string> reserved; ///< Locals and fields that become keywords.
     std::set<std::string> usedBuiltins;
     std::set<int> texCoords; ///< Elements of gl_TexCoord that are used.
-    int fragData = 0;  ///< Size of gl_FragData.
+    int fragData = 0;        ///< Size of gl_FragData.
     int clipDistances = 0;
 
     bool uses(const std::string& builtin) const { return usedBuiltins.count(builtin) != 0; }
@@ -74,11 +76,11 @@ struct MergeVarying
     std::string vertex, fragment; ///< Expressions in the merged texts.
     char base = 'f';              ///< f, i, u.
     int components = 1;
-    std::string interpolation;    ///< "", "flat", "noperspective", with "centroid" or "sample".
-    std::string condition; ///< Only then the fragment's variable takes it; empty: always.
-    std::string value;     ///< What is known of its value; empty: nothing.
-    std::size_t slot = 0;         ///< Index into the plan's vectors.
-    int offset = 0;               ///< First component in it.
+    std::string interpolation; ///< "", "flat", "noperspective", with "centroid" or "sample".
+    std::string condition;     ///< Only then the fragment's variable takes it; empty: always.
+    std::string value;         ///< What is known of its value; empty: nothing.
+    std::size_t slot = 0;      ///< Index into the plan's vectors.
+    int offset = 0;            ///< First component in it.
     const MergeVarying* sharedWith = nullptr; ///< The one that writes it, if not this one.
 };
 
@@ -90,10 +92,10 @@ struct MergeProgram
     MergeStage vertex, fragment;
     std::vector<MergeVarying> varyings;
     std::vector<std::string> outputs; ///< Assignments that give each output a value.
-    std::string color;     ///< Expression of type vec4 for the result.
-    std::string discarded; ///< The flag's name.
-    std::string depth;     ///< The name that stands for gl_FragDepth; empty if not written.
-    std::string position;  ///< The value of gl_Position by MergeValues; empty if not known.
+    std::string color;                ///< Expression of type vec4 for the result.
+    std::string discarded;            ///< The flag's name.
+    std::string depth;    ///< The name that stands for gl_FragDepth; empty if not written.
+    std::string position; ///< The value of gl_Position by MergeValues; empty if not known.
     bool discards = false, derivatives = false, invariantAll = false;
     bool discardsInLoops = false; ///< A function that discards is called by another one.
     int version = 110;

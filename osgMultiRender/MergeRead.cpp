@@ -2,7 +2,6 @@
 // Reading a rendering for the merger: entities, outputs, features.
 #include <osgMultiRender/MergeProgram.h>
 
-#include <osgMultiRender/GlslCondition.h>
 #include <osgMultiRender/GlslExpand.h>
 #include <osgMultiRender/GlslVocabulary.h>
 
@@ -137,7 +136,8 @@ private:
         errors.insert(errors.end(), shader.source.messages.begin(), shader.source.messages.end());
         for (const GlslMessage& error : errors)
         {
-            const std::string line = error.line ? ":" + std::to_string(error.line) : "";
+            const std::string line =
+                error.line ? ":" + std::to_string(shader.authorLine(error.line)) : "";
             _program.fail(_files.back().name + line + ": " + error.message);
         }
         _program.version = std::max(_program.version, shader.source.version.number);
@@ -162,9 +162,9 @@ private:
                     continue;
                 }
                 found->second.tainted = true;
-                const bool main = std::any_of(
-                    source.functions.begin(), source.functions.end(),
-                    [](const GlslFunction& f) { return f.name == "main" && !f.body.empty(); });
+                const bool main = std::any_of(source.functions.begin(), source.functions.end(),
+                                              [](const GlslFunction& f)
+                                              { return f.name == "main" && !f.body.empty(); });
                 if (!main || source.word(one.initializer.first) == "{")
                 {
                     _program.fail(_files, shader, one.nameToken,
@@ -182,11 +182,14 @@ private:
         {
             const GlslUse::Kind use = source.uses[i].kind;
             const auto found = stage.entities.find(std::string(source.word(i)));
-            const bool entity = (use == GlslUse::Kind::Global || use == GlslUse::Kind::BlockMember) &&
-                                found != stage.entities.end();
+            const bool entity =
+                (use == GlslUse::Kind::Global || use == GlslUse::Kind::BlockMember) &&
+                found != stage.entities.end();
             if (use == GlslUse::Kind::Function ||
-                (use == GlslUse::Kind::Builtin && isFragment(stage) && written.count(source.word(i))) ||
-                (entity && (found->second.tainted || found->second.kind == MergeEntity::Kind::Varying)))
+                (use == GlslUse::Kind::Builtin && isFragment(stage) &&
+                 written.count(source.word(i))) ||
+                (entity &&
+                 (found->second.tainted || found->second.kind == MergeEntity::Kind::Varying)))
             {
                 return true;
             }
@@ -205,10 +208,9 @@ private:
                 for (std::size_t i = function.body.first;
                      function.name != "main" && i < function.body.last; ++i)
                 {
-                    _program.discardsInLoops =
-                        _program.discardsInLoops ||
-                        (source.tokens[i].kind == GlslToken::Kind::Keyword &&
-                         source.word(i) == "discard");
+                    _program.discardsInLoops = _program.discardsInLoops ||
+                                               (source.tokens[i].kind == GlslToken::Kind::Keyword &&
+                                                source.word(i) == "discard");
                 }
             }
         }
@@ -228,8 +230,7 @@ private:
         {
             _program.fail(_program.rendering->name + ": " +
                           (mains ? "several shader objects define" : "no shader object defines") +
-                          " main of the " + (isFragment(stage) ? "fragment" : "vertex") +
-                          " stage");
+                          " main of the " + (isFragment(stage) ? "fragment" : "vertex") + " stage");
         }
     }
 
@@ -443,8 +444,9 @@ private:
             ++close;
         }
         bool known = false;
-        const long long index =
-            open < close && source.word(open) == "[" ? constantOf(source, open + 1, close, known) : 0;
+        const long long index = open < close && source.word(open) == "["
+                                    ? constantOf(source, open + 1, close, known)
+                                    : 0;
         // An index that varies, or the whole array: all that contexts have.
         const int last = known && index >= 0 && index < 32 ? static_cast<int>(index) : 7;
         if (word == "gl_TexCoord")
@@ -461,48 +463,11 @@ private:
 
     MergeProgram& _program;
     std::vector<MergedFile>& _files;
-    int _texCoords = 32; ///< The declared size of gl_TexCoord.
+    int _texCoords = 32;                    ///< The declared size of gl_TexCoord.
     std::vector<const GlslBlock*> _blockOf; ///< By declaration of the source that is read.
 };
 
 } // namespace
-
-void MergeProgram::fail(const std::string& text)
-{
-    failed = true;
-    if (messages.size() < 16)
-    {
-        messages.push_back({MergeSeverity::Error, id, text});
-    }
-}
-
-void MergeProgram::fail(const std::vector<MergedFile>& files, const MergeShader& shader,
-                        std::size_t token, const std::string& text)
-{
-    fail(files[shader.file].name + ":" + std::to_string(shader.lineOf(token)) + ": " + text);
-}
-
-unsigned int MergeShader::lineOf(std::size_t token) const
-{
-    const unsigned int line = source.tokens[token].line;
-    unsigned int result = line;
-    for (const GlslDirective& directive : source.directives)
-    {
-        if (directive.name == "line" && directive.token < token && !directive.parts.empty())
-        {
-            const auto number = static_cast<unsigned int>(
-                std::stoul(std::string(textOf(source.text, directive.parts[0]))));
-            const unsigned int next = source.tokens[directive.token].line + 1;
-            result = number + (source.version.number < 330 ? 1 : 0) + (line - next);
-        }
-    }
-    return result;
-}
-
-void MergeProgram::note(const std::string& text)
-{
-    messages.push_back({MergeSeverity::Note, id, text});
-}
 
 MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
                               std::vector<MergedFile>& files)
@@ -513,70 +478,6 @@ MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
     program.name = identifierOf(rendering.name);
     Reader(program, files).run();
     return program;
-}
-
-long long constantOf(const GlslSource& source, std::size_t first, std::size_t last, bool& known)
-{
-    // Constants in brackets, so that "2 * N" with N = 1 + 2 is 6; a bound, as they may nest.
-    std::vector<std::pair<std::size_t, std::size_t>> pending = {{first, last}};
-    std::vector<std::string_view> words;
-    while (!pending.empty() && words.size() < 256 && pending.size() < 32)
-    {
-        auto& [at, end] = pending.back();
-        if (at >= end)
-        {
-            pending.pop_back();
-            if (!pending.empty())
-            {
-                words.push_back(")");
-            }
-            continue;
-        }
-        const std::size_t token = at++;
-        const std::string_view word = source.word(token);
-        if (source.tokens[token].blank())
-        {
-            continue;
-        }
-        const GlslDeclaration* global =
-            source.tokens[token].kind == GlslToken::Kind::Identifier ? source.findGlobal(word)
-                                                                     : nullptr;
-        if (global && source.specifiersOf(*global).has("const") && !global->initializer.empty())
-        {
-            words.push_back("(");
-            pending.emplace_back(global->initializer.first, global->initializer.last);
-            continue;
-        }
-        words.push_back(word);
-    }
-    const GlslValue value = pending.empty() ? evaluate(words) : GlslValue{};
-    known = value.known;
-    return value.value;
-}
-
-bool arraySizes(const GlslSource& source, const GlslRange& range, std::vector<int>& sizes)
-{
-    std::size_t open = range.first;
-    int depth = 0;
-    for (std::size_t i = range.first; i < range.last; ++i)
-    {
-        const std::string_view word = source.word(i);
-        if (word == "[" && depth++ == 0)
-        {
-            open = i;
-        }
-        else if (word == "]" && --depth == 0)
-        {
-            bool known = false;
-            const long long size = constantOf(source, open + 1, i, known);
-            if (!known || size < 1 || size > 4096)
-            {
-                return false;
-            }
-            sizes.push_back(static_cast<int>(size));
-        }
-    }
-    return true;
 }
 
 } // namespace osgMultiRender

@@ -17,8 +17,7 @@ using Kind = MergeEntity::Kind;
 
 bool isSampler(std::string_view type)
 {
-    return type.substr(0, 7) == "sampler" ||
-           (type.size() > 8 && type.substr(1, 7) == "sampler");
+    return type.substr(0, 7) == "sampler" || (type.size() > 8 && type.substr(1, 7) == "sampler");
 }
 
 /// Components of a built-in type; 0 for others.
@@ -93,7 +92,8 @@ private:
             collectAttributes(*program, all);
         }
         // Bound ones first: an unbound one of the same name joins them.
-        std::stable_sort(all.begin(), all.end(), [](const Attribute& a, const Attribute& b)
+        std::stable_sort(all.begin(), all.end(),
+                         [](const Attribute& a, const Attribute& b)
                          { return (a.location >= 0) > (b.location >= 0); });
         std::vector<std::vector<const Attribute*>> groups;
         for (const Attribute& one : all)
@@ -178,10 +178,10 @@ private:
         const auto sameName = [&](const Attribute* one) { return one->name == first.name; };
         const auto taken = [&](const MergedAttribute& one) { return one.merged == first.name; };
         const int since = reservedSince(first.name);
-        const bool keeps = std::all_of(group.begin(), group.end(), sameName) &&
-                           std::none_of(_merged.attributes.begin(), _merged.attributes.end(), taken) &&
-                           !(since && since <= _merged.version.number) &&
-                           !builtinFunctionSince(first.name);
+        const bool keeps =
+            std::all_of(group.begin(), group.end(), sameName) &&
+            std::none_of(_merged.attributes.begin(), _merged.attributes.end(), taken) &&
+            !(since && since <= _merged.version.number) && !builtinFunctionSince(first.name);
         MergedAttribute made;
         made.name = first.name;
         made.merged = keeps ? first.name : _names.make(first.name, first.program->id);
@@ -237,14 +237,15 @@ private:
             }
             one.type = "block";
             one.ownBinding = layoutValue(source, specifiers, "binding");
-            one.binding = made.count(name) ? 0 : bindingFor(one.ownBinding, specifiers.has("buffer"));
+            one.binding =
+                made.count(name) ? 0 : bindingFor(one.ownBinding, specifiers.has("buffer"));
         }
         else
         {
             const GlslDeclaration& declared = source.declarations[place.index];
-            const bool instance =
-                std::any_of(source.blocks.begin(), source.blocks.end(), [&](const GlslBlock& block)
-                            { return block.specifiers == declared.specifiers; });
+            const bool instance = std::any_of(source.blocks.begin(), source.blocks.end(),
+                                              [&](const GlslBlock& block)
+                                              { return block.specifiers == declared.specifiers; });
             if (instance || declared.kind == GlslDeclaration::Kind::BlockMember)
             {
                 return;
@@ -383,9 +384,9 @@ private:
                              " is a " + modelUnits[own] + " for another rendering; '" +
                              uniform.name + "' has unit " + std::to_string(unit)});
                 }
-                const bool known = std::any_of(
-                    _merged.textures.begin(), _merged.textures.end(),
-                    [&](const MergedTexture& other) { return other.unit == unit; });
+                const bool known =
+                    std::any_of(_merged.textures.begin(), _merged.textures.end(),
+                                [&](const MergedTexture& other) { return other.unit == unit; });
                 if (!known)
                 {
                     _merged.textures.push_back({unit, uniform.rendering, own, texture != nullptr});
@@ -449,40 +450,11 @@ private:
     MergeNames& _names;
     const MergeOptions& _options;
     Merged& _merged;
-    std::set<int> _bindings[2];                  ///< Of uniform and of storage blocks.
+    std::set<int> _bindings[2];                   ///< Of uniform and of storage blocks.
     std::map<std::string, std::string> _osgTypes; ///< Types of the uniforms that OSG sets.
 };
 
 } // namespace
-
-int layoutValue(const GlslSource& source, const GlslSpecifiers& specifiers, std::string_view key)
-{
-    for (const GlslQualifier& qualifier : specifiers.qualifiers)
-    {
-        for (std::size_t i = qualifier.range.first; i < qualifier.range.last; ++i)
-        {
-            if (source.uses[i].kind != GlslUse::Kind::LayoutName || source.word(i) != key)
-            {
-                continue;
-            }
-            std::size_t first = i + 1;
-            while (first < qualifier.range.last && source.word(first) != "=")
-            {
-                ++first;
-            }
-            std::size_t last = ++first;
-            while (last < qualifier.range.last && source.word(last) != "," &&
-                   source.word(last) != ")")
-            {
-                ++last;
-            }
-            bool known = false;
-            const long long value = constantOf(source, first, last, known);
-            return known && value >= 0 && value < 256 ? static_cast<int>(value) : -1;
-        }
-    }
-    return -1;
-}
 
 void planResources(const std::vector<MergeProgram*>& programs, MergeNames& names,
                    const MergeOptions& options, Merged& merged)

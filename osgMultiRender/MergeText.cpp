@@ -2,8 +2,7 @@
 // A rendering's own text as it stands in the merged source.
 #include <osgMultiRender/MergeProgram.h>
 
-#include <osgMultiRender/GlslEdit.h>
-#include <osgMultiRender/GlslVocabulary.h>
+#include <osgMultiRender/MergeRename.h>
 
 #include <algorithm>
 
@@ -20,7 +19,7 @@ class Writer
 public:
     Writer(const MergeProgram& program, const MergeStage& stage, std::size_t shader)
         : _program(program), _stage(stage), _index(shader), _source(stage.shaders[shader].source),
-          _edit(_source), _fragment(&stage == &program.fragment)
+          _rename(stage, _source), _edit(_source), _fragment(&stage == &program.fragment)
     {
     }
 
@@ -30,17 +29,16 @@ public:
         statements();
         blocks();
         functions();
-        jumps();
-        rename();
+        if (_fragment)
+        {
+            editJumps(_program, _index, _rename, _edit);
+        }
+        _rename.apply(_edit);
         return _edit.getText(version.number);
     }
 
 private:
-    const MergeEntity* find(std::string_view name) const
-    {
-        const auto found = _stage.entities.find(std::string(name));
-        return found == _stage.entities.end() ? nullptr : &found->second;
-    }
+    const MergeEntity* find(std::string_view name) const { return _rename.find(name); }
 
     void directives()
     {
@@ -128,9 +126,8 @@ private:
     bool definesStruct(const GlslSpecifiers& specifiers) const
     {
         return std::any_of(_source.structs.begin(), _source.structs.end(),
-                           [&](const GlslStruct& one) {
-                               return !one.name.empty() && one.nameToken == specifiers.typeToken;
-                           });
+                           [&](const GlslStruct& one)
+                           { return !one.name.empty() && one.nameToken == specifiers.typeToken; });
     }
 
     void structure(const GlslStruct& one)
@@ -253,26 +250,13 @@ private:
     void moveInitializer(const GlslDeclaration& one)
     {
         _edit.removeQualifiers(_source.specifiersOf(one), {"const"});
-        _moved += find(one.name)->merged + " = " + renamedText(one.initializer) + "; ";
+        _moved += find(one.name)->merged + " = " + _rename.textOf(one.initializer) + "; ";
         std::size_t equals = one.nameToken;
         while (equals < one.initializer.first && _source.word(equals) != "=")
         {
             ++equals;
         }
         _edit.blank({equals, one.initializer.last});
-    }
-
-    std::string renamedText(const GlslRange& range) const
-    {
-        std::string text;
-        for (std::size_t i = range.first; i < range.last; ++i)
-        {
-            const std::string* other = renamed(i);
-            text += _source.tokens[i].blank() ? " "
-                    : other                   ? *other
-                                              : std::string(_source.word(i));
-        }
-        return text;
     }
 
     void blocks()
@@ -333,8 +317,8 @@ private:
             const GlslSpecifiers& specifiers = _source.specifiers[function.specifiers];
             if (entity && !entity->inPlace)
             {
-                const std::size_t last =
-                    std::max(specifiers.statement.last, function.body.empty() ? 0 : function.body.last);
+                const std::size_t last = std::max(specifiers.statement.last,
+                                                  function.body.empty() ? 0 : function.body.last);
                 _edit.blank({specifiers.statement.first, last});
                 continue;
             }
@@ -379,263 +363,14 @@ private:
         return text;
     }
 
-    /// `return` of main and `discard`.
-    void jumps()
-    {
-        if (!_fragment)
-        {
-            return;
-        }
-        for (const GlslFunction& function : _source.functions)
-        {
-            const MergeEntity* entity = find(function.name);
-            const bool main = function.name == "main";
-            for (std::size_t i = function.body.first;
-                 entity && entity->inPlace && i < function.body.last; ++i)
-            {
-                if (_source.tokens[i].kind != GlslToken::Kind::Keyword)
-                {
-                    continue;
-                }
-                const std::string_view word = _source.word(i);
-                if (word == "return" && main)
-                {
-                    _edit.replace(_source.tokens[i].begin, _source.tokens[i].end,
-                                  "return " + _program.color);
-                }
-                else if (word == "discard")
-                {
-                    discardAt(i, function);
-                }
-                else if (_program.discardsInLoops && (word == "for" || word == "while" || word == "do"))
-                {
-                    guardLoop(i, function);
-                }
-            }
-        }
-    }
-
-    void discardAt(std::size_t token, const GlslFunction& function)
-    {
-        std::size_t end = token + 1;
-        while (end < function.body.last && _source.tokens[end].blank())
-        {
-            ++end;
-        }
-        if (_source.word(end) == ";")
-        {
-            _edit.blank({end, end + 1});
-        }
-        std::string leave = "return;";
-        const GlslSpecifiers& type = _source.specifiers[function.specifiers];
-        if (function.name == "main")
-        {
-            leave = "return " + _program.color + ";";
-        }
-        else if (type.type != "void")
-        {
-            // The value is never looked at.
-            const std::string* other = renamed(type.typeToken);
-            leave = (other ? *other : type.type) + renamedText(type.typeArray) +
-                    " nothing; return nothing;";
-        }
-        _edit.replace(_source.tokens[token].begin, _source.tokens[token].end,
-                      "{ " + _program.discarded + " = true; " + leave + " }");
-    }
-
-    std::size_t skipBlanks(std::size_t i) const
-    {
-        while (i < _source.tokens.size() && _source.tokens[i].blank())
-        {
-            ++i;
-        }
-        return i;
-    }
-
-    /// The token behind the bracket that matches the one at `open`.
-    std::size_t behindMatch(std::size_t open, std::size_t end) const
-    {
-        int depth = 0;
-        for (std::size_t i = open; i < end; ++i)
-        {
-            const std::string_view word = _source.word(i);
-            depth += word == "(" || word == "{" ? 1 : word == ")" || word == "}" ? -1 : 0;
-            if (depth == 0)
-            {
-                return i + 1;
-            }
-        }
-        return end;
-    }
-
-    /// A function that discarded returns to its caller, which must not go round for ever.
-    void guardLoop(std::size_t token, const GlslFunction& function)
-    {
-        const std::size_t end = function.body.last;
-        std::size_t at = skipBlanks(token + 1);
-        const auto calls = [&](const GlslUse& use) { return use.kind == GlslUse::Kind::Function; };
-        if (std::none_of(_source.uses.begin() + static_cast<std::ptrdiff_t>(token),
-                         _source.uses.begin() + static_cast<std::ptrdiff_t>(end), calls))
-        {
-            return;
-        }
-        if (_source.word(token) == "do")
-        {
-            if (at >= end || _source.word(at) != "{")
-            {
-                return;
-            }
-            _tails.insert(skipBlanks(behindMatch(at, end)));
-        }
-        else
-        {
-            if (at >= end || _source.word(at) != "(" || _tails.count(token))
-            {
-                return;
-            }
-            at = behindMatch(at, end);
-        }
-        _edit.insertBefore(at, " if (" + _program.discarded + ") break; else ");
-    }
-
-    /// The other name of a token; null if it keeps its own.
-    const std::string* renamed(std::size_t token) const
-    {
-        using Use = GlslUse::Kind;
-        const Use kind = _source.uses[token].kind;
-        const auto inMap = [&](const std::map<std::string, std::string>& map) -> const std::string*
-        {
-            const auto found = map.find(std::string(_source.word(token)));
-            return found == map.end() ? nullptr : &found->second;
-        };
-        switch (kind)
-        {
-        case Use::Global:
-        case Use::BlockMember:
-        case Use::Type:
-        case Use::BlockName:
-        case Use::Function:
-        {
-            const MergeEntity* entity = find(_source.word(token));
-            if (!entity)
-            {
-                return inMap(_stage.builtins);
-            }
-            return kind == Use::Function && !callsOwn(token) ? nullptr : &entity->merged;
-        }
-        case Use::Builtin:
-            return inMap(_stage.builtins);
-        case Use::Local:
-        case Use::Parameter:
-        case Use::Member:
-            return inMap(_stage.reserved);
-        default:
-            return nullptr;
-        }
-    }
-
-    /// Whether a use of a function's name means the rendering's own overloads, and not those of
-    /// a built-in function of the same name.
-    bool callsOwn(std::size_t token) const
-    {
-        const std::string_view word = _source.word(token);
-        if (!builtinFunctionSince(word) || builtinFunctionSince(word) > _source.version.number)
-        {
-            return true;
-        }
-        const std::size_t open = skipBlanks(token + 1);
-        if (open >= _source.tokens.size() || _source.word(open) != "(")
-        {
-            return true;
-        }
-        std::size_t count = 0;
-        int depth = 0;
-        for (std::size_t i = open; i < _source.tokens.size(); ++i)
-        {
-            const std::string_view text = _source.word(i);
-            depth += text == "(" || text == "[" || text == "{"   ? 1
-                     : text == ")" || text == "]" || text == "}" ? -1
-                                                                 : 0;
-            if (depth == 0)
-            {
-                break;
-            }
-            const bool starts = i > open && count == 0 && !_source.tokens[i].blank();
-            count += starts || (text == "," && depth == 1) ? 1 : 0;
-        }
-        return std::any_of(_source.functions.begin(), _source.functions.end(),
-                           [&](const GlslFunction& function) {
-                               return function.name == word &&
-                                      (function.nameToken == token ||
-                                       function.parameters.size() == count);
-                           });
-    }
-
-    /// Whether a word of a comment is meant as a name: "lightDir", "wave_2", "fade()", "'n'".
-    static bool looksLikeName(std::string_view text, std::size_t begin, std::size_t end)
-    {
-        const char before = begin > 0 ? text[begin - 1] : ' ';
-        const char behind = end < text.size() ? text[end] : ' ';
-        const std::string_view quotes = "'`\"";
-        if (behind == '(' || (before == behind && quotes.find(before) != std::string_view::npos))
-        {
-            return true;
-        }
-        return std::any_of(text.begin() + static_cast<std::ptrdiff_t>(begin) + 1,
-                           text.begin() + static_cast<std::ptrdiff_t>(end),
-                           [](char c) { return c == '_' || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); });
-    }
-
-    /// Comments follow the new names.
-    void renameComment(const GlslToken& token)
-    {
-        const std::string_view text = textOf(_source.text, token);
-        const auto letter = [](char c)
-        {
-            return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                   (c >= '0' && c <= '9');
-        };
-        for (std::size_t at = 2; at < text.size();)
-        {
-            std::size_t end = at;
-            while (end < text.size() && letter(text[end]))
-            {
-                ++end;
-            }
-            const MergeEntity* entity = end > at ? find(text.substr(at, end - at)) : nullptr;
-            if (entity && looksLikeName(text, at, end))
-            {
-                _edit.replace(token.begin + at, token.begin + end, entity->merged);
-            }
-            at = std::max(end, at + 1);
-        }
-    }
-
-    void rename()
-    {
-        for (std::size_t i = 0; i < _source.tokens.size(); ++i)
-        {
-            if (_source.tokens[i].kind == GlslToken::Kind::Comment)
-            {
-                renameComment(_source.tokens[i]);
-                continue;
-            }
-            const std::string* other = renamed(i);
-            if (other)
-            {
-                _edit.replace(_source.tokens[i].begin, _source.tokens[i].end, *other);
-            }
-        }
-    }
-
     const MergeProgram& _program;
     const MergeStage& _stage;
     std::size_t _index;
     const GlslSource& _source;
+    MergeRename _rename;
     GlslEdit _edit;
     bool _fragment;
-    std::string _moved;
-    std::set<std::size_t> _tails; ///< The `while` of do loops.
+    std::string _moved; ///< Assignments for the start of main().
 };
 
 } // namespace

@@ -96,14 +96,13 @@ private:
     /// Moves behind the statement at the cursor. False if it is no single expression.
     bool findEnd()
     {
-        const bool control = isOneOf(word(_at), {"if", "else", "for", "while", "do", "switch", "{"});
+        const bool control =
+            isOneOf(word(_at), {"if", "else", "for", "while", "do", "switch", "{"});
         int depth = 0;
         for (; _at < _tokens.size(); ++_at)
         {
             const std::string_view text = word(_at);
-            depth += isOneOf(text, {"(", "[", "{"})   ? 1
-                     : isOneOf(text, {")", "]", "}"}) ? -1
-                                                      : 0;
+            depth += isOneOf(text, {"(", "[", "{"}) ? 1 : isOneOf(text, {")", "]", "}"}) ? -1 : 0;
             if (depth == 0 && (text == ";" || text == "}"))
             {
                 ++_at;
@@ -165,8 +164,8 @@ private:
             const std::string_view text = word(i);
             depth += isOneOf(text, {"(", "["}) ? 1 : isOneOf(text, {")", "]"}) ? -1 : 0;
             const bool assigns =
-                isOneOf(text, {"=", "++", "--", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=",
-                               "<<=", ">>="});
+                isOneOf(text, {"=", "++", "--",
+                               "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^=", "<<=", ">>="});
             // A function of the rendering's own may write what it is given.
             const bool calls = _source.uses[_tokens[i]].kind == GlslUse::Kind::Function;
             if (assigns || calls || (depth == 0 && text == ","))

@@ -49,9 +49,8 @@ int strengthOf(const std::string& behavior)
 class MergeWriter
 {
 public:
-    MergeWriter(const std::vector<MergeProgram*>& programs,
-                const std::vector<MergeVector>& vectors, const MergeOptions& options,
-                Merged& merged)
+    MergeWriter(const std::vector<MergeProgram*>& programs, const std::vector<MergeVector>& vectors,
+                const MergeOptions& options, Merged& merged)
         : _programs(programs), _vectors(vectors), _options(options), _merged(merged)
     {
         for (const MergeProgram* program : programs)
@@ -70,6 +69,8 @@ public:
         vertexMain();
         _merged.vertex = std::move(_text);
         _text.clear();
+        _lines = 0;
+        _counted = 0;
         head();
         fragmentHead();
         sections(true);
@@ -111,8 +112,11 @@ private:
     /// Gives our own lines their numbers in this text.
     void ownLine()
     {
-        const auto line = std::count(_text.begin(), _text.end(), '\n') + 2;
-        _text += "#line " + std::to_string(line) + " " + std::to_string(_merged.files.size()) + "\n";
+        const auto from = _text.begin() + static_cast<std::ptrdiff_t>(_counted);
+        _lines += std::count(from, _text.end(), '\n');
+        _counted = _text.size();
+        _text += "#line " + std::to_string(_lines + 2) + " " +
+                 std::to_string(_merged.files.size()) + "\n";
     }
 
     void vectors(const char* direction)
@@ -244,8 +248,10 @@ private:
         const std::string id = std::to_string(program.id);
         const bool isBase = _options.outside == MergeOutside::Base && &program == _base;
         const bool branch = _options.skipZeroWeights && !program.derivatives && !isBase;
-        const std::string call = "osgmr_c = " + program.fragment.entities.at("main").merged + "();\n";
-        _text += "\n    // " + program.name + (program.derivatives ? ", takes derivatives" : "") + "\n";
+        const std::string call =
+            "osgmr_c = " + program.fragment.entities.at("main").merged + "();\n";
+        _text +=
+            "\n    // " + program.name + (program.derivatives ? ", takes derivatives" : "") + "\n";
         if (!branch)
         {
             unpack(program, "    ");
@@ -284,19 +290,27 @@ private:
             _text += "        if (osgmr_any)\n        {\n            discard;\n        }\n";
             if (_options.outside == MergeOutside::Base)
             {
-                _text += _base->discards ? "        if (" + _base->discarded + ")\n        {\n            discard;\n        }\n" : "";
+                _text += _base->discards ? "        if (" + _base->discarded +
+                                               ")\n        {\n            discard;\n        }\n"
+                                         : "";
                 _text += "        osgmr_sum = osgmr_base.rgb;\n        osgmr_total = 1.0;\n";
-                _text += _depth ? "        osgmr_depth = " + (_base->depth.empty() ? std::string("gl_FragCoord.z") : _base->depth) + ";\n" : "";
+                _text += _depth ? "        osgmr_depth = " +
+                                      (_base->depth.empty() ? std::string("gl_FragCoord.z")
+                                                            : _base->depth) +
+                                      ";\n"
+                                : "";
             }
         }
         _text += "    }\n";
         if (_depth)
         {
-            _text += "    gl_FragDepth = osgmr_total > 0.0 ? osgmr_depth / osgmr_total : gl_FragCoord.z;\n";
+            _text += "    gl_FragDepth = osgmr_total > 0.0 ? osgmr_depth / osgmr_total : "
+                     "gl_FragCoord.z;\n";
         }
         if (_options.normalize)
         {
-            _text += "    if (osgmr_total > 1.0)\n    {\n        osgmr_sum /= osgmr_total;\n    }\n";
+            _text +=
+                "    if (osgmr_total > 1.0)\n    {\n        osgmr_sum /= osgmr_total;\n    }\n";
         }
         _text += "    osgmr_color = clamp(vec4(osgmr_sum, osgmr_total), 0.0, 1.0);\n";
     }
@@ -308,6 +322,8 @@ private:
     const MergeProgram* _base = nullptr;
     bool _depth = false;
     std::string _text;
+    std::ptrdiff_t _lines = 0; ///< In the first `_counted` bytes of the text.
+    std::size_t _counted = 0;
 };
 
 } // namespace

@@ -178,7 +178,8 @@ private:
         for (std::size_t count = 1; count <= programs.size() && passed.empty(); ++count)
         {
             by = programs[count - 1];
-            measure(Programs(programs.begin(), programs.begin() + static_cast<std::ptrdiff_t>(count)));
+            measure(
+                Programs(programs.begin(), programs.begin() + static_cast<std::ptrdiff_t>(count)));
             passed = passedLimit(_merged.statistics, _options.limits);
         }
         MergeProgram* least = programs.front();
@@ -216,8 +217,8 @@ private:
         }
         for (MergeProgram* program : programs)
         {
-            program->moves = program != base && (program->position.empty() ||
-                                                 program->position != base->position);
+            program->moves = program != base &&
+                             (program->position.empty() || program->position != base->position);
             if (program->moves)
             {
                 program->messages.push_back(

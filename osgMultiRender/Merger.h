@@ -12,20 +12,20 @@ namespace osgMultiRender
 /// What a context allows. The defaults are the least of OpenGL 3.3.
 struct MergeLimits
 {
-    int version = 460;                 ///< Of GLSL.
-    int varyingVectors = 15;           ///< GL_MAX_VARYING_VECTORS, or components / 4.
-    int fragmentSamplers = 16;         ///< GL_MAX_TEXTURE_IMAGE_UNITS
-    int vertexSamplers = 16;           ///< GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS
-    int textureUnits = 48;             ///< GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS
+    int version = 460;                    ///< Of GLSL.
+    int varyingVectors = 15;              ///< GL_MAX_VARYING_VECTORS, or components / 4.
+    int fragmentSamplers = 16;            ///< GL_MAX_TEXTURE_IMAGE_UNITS
+    int vertexSamplers = 16;              ///< GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS
+    int textureUnits = 48;                ///< GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS
     int vertexUniformComponents = 1024;   ///< GL_MAX_VERTEX_UNIFORM_COMPONENTS
     int fragmentUniformComponents = 1024; ///< GL_MAX_FRAGMENT_UNIFORM_COMPONENTS
-    int vertexAttributes = 16;         ///< GL_MAX_VERTEX_ATTRIBS
+    int vertexAttributes = 16;            ///< GL_MAX_VERTEX_ATTRIBS
 };
 
 /// What a pixel shows where all weights are 0.
 enum class MergeOutside
 {
-    Background, ///< The pixel is discarded.
+    Background,  ///< The pixel is discarded.
     Transparent, ///< (0, 0, 0, 0)
     Base         ///< The base rendering.
 };
@@ -46,10 +46,10 @@ struct MergeOptions
     std::string weights;
 
     MergeOutside outside = MergeOutside::Background;
-    bool normalize = false;      ///< Divide by the sum of the weights where it is above 1.
+    bool normalize = false;        ///< Divide by the sum of the weights where it is above 1.
     bool clampVertexColors = true; ///< gl_FrontColor as under GL's own GL_CLAMP_VERTEX_COLOR.
-    bool skipZeroWeights = true; ///< Branch around renderings of weight 0 where that is defined.
-    bool share = true;           ///< Equal functions, constants, structs and varyings once.
+    bool skipZeroWeights = true;   ///< Branch around renderings of weight 0 where that is defined.
+    bool share = true;             ///< Equal functions, constants, structs and varyings once.
     MergeLimits limits;
     std::vector<unsigned int> occupiedUnits; ///< Texture units that renderings' own can't have.
 };
@@ -68,7 +68,7 @@ struct MergedUniform
     std::string type;   ///< "block" for uniform and storage blocks.
     int arraySize = 0;  ///< 0: no array.
     bool vertex = false, fragment = false; ///< The stages that declare it.
-    std::vector<unsigned int> units; ///< Of samplers: the texture unit of each element.
+    std::vector<unsigned int> units;       ///< Of samplers: the texture unit of each element.
     int ownBinding = -1; ///< Of blocks: the one that the rendering's text asks for.
     int binding = -1;    ///< Of blocks: one that no other block of the program has.
 };
@@ -106,7 +106,7 @@ struct MergeMessage
 /// What became of one entry.
 struct MergedRendering
 {
-    std::string name;       ///< As an identifier, without the id: "electronic_microscope".
+    std::string name; ///< As an identifier, without the id: "electronic_microscope".
     bool included = false;
     bool discards = false;
     bool writesDepth = false;
@@ -131,7 +131,7 @@ struct OSGMULTIRENDER_EXPORT Merged
 {
     bool ok = false; ///< False: no entry is included, or the options are wrong.
     GlslVersion version;
-    std::string vertex, fragment; ///< Complete sources.
+    std::string vertex, fragment;            ///< Complete sources.
     std::vector<MergedRendering> renderings; ///< One an entry.
     std::vector<MergedUniform> uniforms;
     std::vector<MergedTexture> textures;

@@ -24,7 +24,7 @@ struct RenderingShader
 struct RenderingUniform
 {
     std::string name;
-    std::string type;   ///< "float", "vec3", "sampler2D"; empty: as declared.
+    std::string type; ///< "float", "vec3", "sampler2D"; empty: as declared.
     int arraySize = 1;
     std::vector<double> values; ///< Components of all elements; empty: what the shaders say.
     double minimum = 0.0, maximum = 1.0; ///< What a user may choose; equal: anything.
@@ -33,12 +33,12 @@ struct RenderingUniform
 /// A texture of a rendering's own. Numbers are OpenGL's.
 struct RenderingTexture
 {
-    unsigned int unit = 0;             ///< As the rendering's sampler uniforms count.
-    std::string fileName;              ///< Relative to the rendering's file or absolute.
-    std::vector<std::string> faces;    ///< Of cube maps: +x, -x, +y, -y, +z, -z; else empty.
-    unsigned int target = 0x0DE1;      ///< GL_TEXTURE_2D
-    unsigned int minFilter = 0x2703;   ///< GL_LINEAR_MIPMAP_LINEAR
-    unsigned int magFilter = 0x2601;   ///< GL_LINEAR
+    unsigned int unit = 0;           ///< As the rendering's sampler uniforms count.
+    std::string fileName;            ///< Relative to the rendering's file or absolute.
+    std::vector<std::string> faces;  ///< Of cube maps: +x, -x, +y, -y, +z, -z; else empty.
+    unsigned int target = 0x0DE1;    ///< GL_TEXTURE_2D
+    unsigned int minFilter = 0x2703; ///< GL_LINEAR_MIPMAP_LINEAR
+    unsigned int magFilter = 0x2601; ///< GL_LINEAR
     std::array<unsigned int, 3> wrap = {0x2901, 0x2901, 0x2901}; ///< s, t, r; GL_REPEAT
 };
 
@@ -63,7 +63,7 @@ struct RenderingLight
     RenderingColor specular = {1.0f, 1.0f, 1.0f, 1.0f};
     std::array<float, 3> spotDirection = {0.0f, 0.0f, -1.0f};
     float spotExponent = 0.0f;
-    float spotCutoff = 180.0f; ///< Degrees.
+    float spotCutoff = 180.0f;                             ///< Degrees.
     std::array<float, 3> attenuation = {1.0f, 0.0f, 0.0f}; ///< Constant, linear, quadratic.
 };
 

@@ -49,7 +49,8 @@ int complain(const std::string& text)
 
 bool readNumber(const std::string& text, int& value)
 {
-    if (text.empty() || text.size() > 7 || text.find_first_not_of("0123456789") != std::string::npos)
+    if (text.empty() || text.size() > 7 ||
+        text.find_first_not_of("0123456789") != std::string::npos)
     {
         return false;
     }
@@ -224,7 +225,9 @@ int print(const Arguments& arguments, const Merged& merged)
         return 0;
     }
     if (!arguments.list && !arguments.map && !arguments.stats)
-        std::cout << "// vertex stage\n" << merged.vertex << "\n// fragment stage\n" << merged.fragment;
+        std::cout << "// vertex stage\n"
+                  << merged.vertex << "\n// fragment stage\n"
+                  << merged.fragment;
     return 0;
 }
 

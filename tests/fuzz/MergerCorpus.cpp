@@ -33,6 +33,7 @@ int main(int argc, char** argv)
            "</UniformVariables><BuiltInStates><Light0 Enabled=\"True\" PosX=\"1\"/>"
            "</BuiltInStates></GLSLang>";
     std::ofstream(folder + "/image", std::ios::binary)
-        << "\x07void mainImage(out vec4 c, in vec2 at) { c = vec4(at / iResolution.xy, iTime, 1.0); }";
+        << "\x07void mainImage(out vec4 c, in vec2 at) { c = vec4(at / iResolution.xy, iTime, "
+           "1.0); }";
     return 0;
 }

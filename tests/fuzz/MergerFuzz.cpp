@@ -85,7 +85,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         Rendering& rendering = renderings[i / 2];
         rendering.name = "r" + std::to_string(i / 2);
         const GlslStage stage = i % 2 ? GlslStage::Vertex : GlslStage::Fragment;
-        rendering.shaders.push_back({stage, texts[i], rendering.name + (i % 2 ? ".vert" : ".frag")});
+        rendering.shaders.push_back(
+            {stage, texts[i], rendering.name + (i % 2 ? ".vert" : ".frag")});
         rendering.state.twoSided = (data[0] & 8) != 0;
     }
     std::vector<MergeEntry> entries;

@@ -181,7 +181,8 @@ std::string MergeStudio::weights(std::size_t count)
 {
     // Tents over the columns: two renderings at most have weight at a pixel.
     return "float osgmr_weight(int rendering)\n{\n    float at = floor(gl_FragCoord.x) * " +
-           std::to_string(count - 1) + ".0 / 63.0;\n"
+           std::to_string(count - 1) +
+           ".0 / 63.0;\n"
            "    return clamp(1.0 - abs(at - float(rendering)), 0.0, 1.0);\n}\n";
 }
 

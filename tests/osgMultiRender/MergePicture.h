@@ -29,10 +29,10 @@ struct MergePicture
 /// How far a merged picture is from the blend of the single ones.
 struct MergeDifference
 {
-    double worst = 0.0;       ///< Of any component of any pixel that is compared.
+    double worst = 0.0; ///< Of any component of any pixel that is compared.
     double worstDepth = 0.0;
-    std::size_t covered = 0;  ///< Pixels with a colour.
-    std::size_t beside = 0;   ///< Pixels that are drawn in one picture only.
+    std::size_t covered = 0; ///< Pixels with a colour.
+    std::size_t beside = 0;  ///< Pixels that are drawn in one picture only.
 };
 
 /// Draws renderings alone and merged, with the same uniforms, textures, attributes and lights.
@@ -62,7 +62,8 @@ public:
                                    const std::vector<MergePicture>& alone);
 
 private:
-    MergePicture draw(const PlainProgram& program, const std::vector<std::pair<int, unsigned int>>& attributes);
+    MergePicture draw(const PlainProgram& program,
+                      const std::vector<std::pair<int, unsigned int>>& attributes);
     void setUniforms(const PlainProgram& program, const Rendering& rendering, std::size_t index,
                      const Merged* merged);
     void setTextures(const Rendering& rendering, const Merged* merged,

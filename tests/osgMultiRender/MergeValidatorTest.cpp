@@ -49,8 +49,8 @@ TEST_F(MergeValidatorTest, allCasesWithTheirPartnerAreValid)
 
 TEST_F(MergeValidatorTest, allOptionsGiveValidTexts)
 {
-    const Rendering depth = mergeCase(
-        "depth", "void main() { if (gl_FragCoord.x > 9.0) discard; gl_FragDepth = 0.5; gl_FragColor = vec4(1.0); }");
+    const Rendering depth = mergeCase("depth", "void main() { if (gl_FragCoord.x > 9.0) discard; "
+                                               "gl_FragDepth = 0.5; gl_FragColor = vec4(1.0); }");
     for (int i = 0; i < 24; ++i)
     {
         MergeOptions options;

@@ -112,8 +112,9 @@ void main() { gl_FragColor = vec4(trace(uv).at, 1.0); })";
 TEST(MergerTest, functionsThatReadUniformsAreNotShared)
 {
     const std::string text =
-        Head + "uniform float k; float f(float x) { return x * k; } float g(float x) { return f(x); }\n"
-               "void main() { gl_FragColor = vec4(g(uv.x)); }";
+        Head +
+        "uniform float k; float f(float x) { return x * k; } float g(float x) { return f(x); }\n"
+        "void main() { gl_FragColor = vec4(g(uv.x)); }";
     const Merged merged = merge({mergeCase("a", text), mergeCase("b", text)});
     EXPECT_EQ(merged.statistics.sharedFunctions, 0u);
     EXPECT_EQ(definitionsOf(merged.fragment, "g_"), 2u);
@@ -122,8 +123,9 @@ TEST(MergerTest, functionsThatReadUniformsAreNotShared)
 TEST(MergerTest, functionsOfOtherBodiesAreNotShared)
 {
     const std::string end = " } void main() { gl_FragColor = vec4(f(uv.x)); }";
-    const Merged merged = merge({mergeCase("a", Head + "float f(float x) { return x;" + end),
-                                 mergeCase("b", Head + "float f(float x) { return x + 1.0;" + end)});
+    const Merged merged =
+        merge({mergeCase("a", Head + "float f(float x) { return x;" + end),
+               mergeCase("b", Head + "float f(float x) { return x + 1.0;" + end)});
     EXPECT_EQ(merged.statistics.sharedFunctions, 0u);
     EXPECT_EQ(definitionsOf(merged.fragment, "f_"), 2u);
 }
@@ -180,8 +182,9 @@ TEST(MergerTest, varyingsThatBranchesOrUniformsDecideAreNotShared)
 TEST(MergerTest, varyingsArePackedIntoFullVectors)
 {
     const Merged merged = merge(
-        {mergeCase("a", "varying float a, b, c, d; varying vec2 e, f; varying vec3 g;\nvoid main() "
-                        "{ gl_FragColor = vec4(a + b, c + d, e.x + f.x, g.x); }",
+        {mergeCase("a",
+                   "varying float a, b, c, d; varying vec2 e, f; varying vec3 g;\nvoid main() "
+                   "{ gl_FragColor = vec4(a + b, c + d, e.x + f.x, g.x); }",
                    "varying float a, b, c, d; varying vec2 e, f; varying vec3 g;\nvoid main() { a "
                    "= b = c = d = 1.0; e = f = vec2(1.0); g = vec3(1.0); gl_Position = "
                    "ftransform(); }")});
@@ -205,10 +208,9 @@ TEST(MergerTest, whatMovesVerticesOtherwiseIsNamed)
 
 TEST(MergerTest, usualWritingsOfThePositionAreTheSame)
 {
-    for (const char* position :
-         {"gl_ModelViewProjectionMatrix * gl_Vertex",
-          "gl_ProjectionMatrix * gl_ModelViewMatrix * gl_Vertex",
-          "gl_ProjectionMatrix * (gl_ModelViewMatrix * gl_Vertex)"})
+    for (const char* position : {"gl_ModelViewProjectionMatrix * gl_Vertex",
+                                 "gl_ProjectionMatrix * gl_ModelViewMatrix * gl_Vertex",
+                                 "gl_ProjectionMatrix * (gl_ModelViewMatrix * gl_Vertex)"})
     {
         const std::string vertex = std::string("varying vec2 uv; varying vec3 n, eye;\nvoid main() "
                                                "{ uv = vec2(0.5); gl_Position = ") +
@@ -223,9 +225,11 @@ TEST(MergerTest, whatTakesDerivativesIsOutsideOfBranches)
     const Merged merged = merge(
         {mergeCase("a", Plain),
          mergeCase("b", Head + "void main() { gl_FragColor = vec4(fwidth(uv), 0.0, 1.0); }"),
-         mergeCase("c", Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }"),
-         mergeCase("d", "#version 130\n" + Head + "uniform sampler2D t; void main() { gl_FragColor "
-                                                  "= textureLod(t, uv, 0.0); }")});
+         mergeCase("c",
+                   Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }"),
+         mergeCase("d", "#version 130\n" + Head +
+                            "uniform sampler2D t; void main() { gl_FragColor "
+                            "= textureLod(t, uv, 0.0); }")});
     EXPECT_FALSE(merged.renderings[0].usesDerivatives);
     EXPECT_TRUE(merged.renderings[1].usesDerivatives);
     EXPECT_TRUE(merged.renderings[2].usesDerivatives);
@@ -236,11 +240,11 @@ TEST(MergerTest, whatTakesDerivativesIsOutsideOfBranches)
 
 TEST(MergerTest, versionsAndExtensionsAreJoined)
 {
-    const Merged merged =
-        merge({mergeCase("a", "#version 120\n#extension GL_ARB_texture_rectangle : enable\n" + Plain),
-               mergeCase("b", "#version 400 compatibility\n#extension GL_ARB_texture_rectangle : "
-                              "require\n#extension GL_ARB_gpu_shader5 : warn\nin vec2 uv; out vec4 "
-                              "c; void main() { c = vec4(uv, 0.0, 1.0); }")});
+    const Merged merged = merge(
+        {mergeCase("a", "#version 120\n#extension GL_ARB_texture_rectangle : enable\n" + Plain),
+         mergeCase("b", "#version 400 compatibility\n#extension GL_ARB_texture_rectangle : "
+                        "require\n#extension GL_ARB_gpu_shader5 : warn\nin vec2 uv; out vec4 "
+                        "c; void main() { c = vec4(uv, 0.0, 1.0); }")});
     EXPECT_EQ(merged.version.number, 400);
     EXPECT_EQ(merged.fragment.find("#version 400 compatibility\n#extension GL_ARB_gpu_shader5 : "
                                    "warn\n#extension GL_ARB_texture_rectangle : require\n"),
@@ -266,7 +270,8 @@ TEST(MergerTest, uniformsAreFoundByRenderingAndName)
 
 TEST(MergerTest, texturesOfTheirOwnGetUnitsWithoutCollision)
 {
-    const std::string text = Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }";
+    const std::string text =
+        Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }";
     std::vector<Rendering> all(4, mergeCase("a", text));
     all[1].textures.resize(1); // unit 0, a file of its own
     all[1].textures[0].fileName = "wood.png";
@@ -286,17 +291,24 @@ TEST(MergerTest, texturesOfTheirOwnGetUnitsWithoutCollision)
 
 TEST(MergerTest, samplersOfOtherKindsNeverShareAUnit)
 {
-    const Merged merged =
-        merge({mergeCase("a", Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }"),
-               mergeCase("b", Head + "uniform samplerCube t; void main() { gl_FragColor = textureCube(t, n); }")});
+    const Merged merged = merge(
+        {mergeCase("a",
+                   Head + "uniform sampler2D t; void main() { gl_FragColor = texture2D(t, uv); }"),
+         mergeCase(
+             "b",
+             Head + "uniform samplerCube t; void main() { gl_FragColor = textureCube(t, n); }")});
     EXPECT_NE(merged.findUniform(0, "t")->units, merged.findUniform(1, "t")->units);
 }
 
 TEST(MergerTest, attributesKeepTheirBindings)
 {
     const std::string fragment = "varying vec3 t;\nvoid main() { gl_FragColor = vec4(t, 1.0); }";
-    Rendering a = mergeCase("a", fragment, "attribute vec3 tangent; varying vec3 t;\nvoid main() { t = tangent; gl_Position = ftransform(); }");
-    Rendering b = mergeCase("b", fragment, "attribute vec4 T; varying vec3 t;\nvoid main() { float tangent = 2.0; t = T.xyz * tangent; gl_Position = ftransform(); }");
+    Rendering a = mergeCase("a", fragment,
+                            "attribute vec3 tangent; varying vec3 t;\nvoid main() { t = tangent; "
+                            "gl_Position = ftransform(); }");
+    Rendering b = mergeCase("b", fragment,
+                            "attribute vec4 T; varying vec3 t;\nvoid main() { float tangent = 2.0; "
+                            "t = T.xyz * tangent; gl_Position = ftransform(); }");
     a.attributeBindings["tangent"] = b.attributeBindings["T"] = 6;
     const Merged merged = merge({a, b});
     ASSERT_EQ(merged.attributes.size(), 1u);
@@ -313,9 +325,11 @@ TEST(MergerTest, theLeastImportantIsLeftOutWhereALimitIsPassed)
     for (int i = 0; i < 3; ++i)
     {
         const std::string name(1, static_cast<char>('a' + i));
-        all.push_back(mergeCase(name.c_str(),
-                                "uniform float k; varying vec4 x, y;\nvoid main() { gl_FragColor = x * y; }",
-                                "uniform float k; varying vec4 x, y;\nvoid main() { x = gl_Vertex * k; y = x * k; gl_Position = ftransform(); }"));
+        all.push_back(
+            mergeCase(name.c_str(),
+                      "uniform float k; varying vec4 x, y;\nvoid main() { gl_FragColor = x * y; }",
+                      "uniform float k; varying vec4 x, y;\nvoid main() { x = gl_Vertex * k; y = x "
+                      "* k; gl_Position = ftransform(); }"));
     }
     std::vector<MergeEntry> entries = {{&all[0], 1.0}, {&all[1], 0.25}, {&all[2], 0.5}};
     MergeOptions options;
@@ -330,10 +344,13 @@ TEST(MergerTest, theLeastImportantIsLeftOutWhereALimitIsPassed)
 
 TEST(MergerTest, eachLimitIsChecked)
 {
-    const Rendering big = mergeCase("big", Head + "uniform vec4 list[300]; uniform sampler2D maps[20];\nvoid main() { gl_FragColor = list[int(uv.x)] + texture2D(maps[3], uv); }");
+    const Rendering big =
+        mergeCase("big", Head + "uniform vec4 list[300]; uniform sampler2D maps[20];\nvoid main() "
+                                "{ gl_FragColor = list[int(uv.x)] + texture2D(maps[3], uv); }");
     const Rendering small = mergeCase("small", Plain);
     MergeOptions options;
-    EXPECT_NE(errorsOf(merge({small, big}, options)).find("20 fragment samplers of 16"), std::string::npos);
+    EXPECT_NE(errorsOf(merge({small, big}, options)).find("20 fragment samplers of 16"),
+              std::string::npos);
     options.limits.fragmentSamplers = 32;
     EXPECT_NE(errorsOf(merge({small, big}, options)).find("fragment uniform components of 1024"),
               std::string::npos);
@@ -341,7 +358,8 @@ TEST(MergerTest, eachLimitIsChecked)
     EXPECT_EQ(errorsOf(merge({small, big}, options)), "");
     options.limits.version = 110;
     options.limits.vertexAttributes = 1;
-    EXPECT_NE(errorsOf(merge({small, big}, options)).find("vertex attributes of 1"), std::string::npos);
+    EXPECT_NE(errorsOf(merge({small, big}, options)).find("vertex attributes of 1"),
+              std::string::npos);
 }
 
 struct Refused
@@ -358,8 +376,10 @@ TEST(MergerTest, whatCantBeMergedIsLeftOutWithItsCauseAndPlace)
         {"/* open\nvoid main() {}", "a.frag:1: the comment is not closed"},
         {"#if 1\nvoid main() {}", "a.frag:1: #if without #endif"},
         {"#error too old\nvoid main() {}", "a.frag:1: #error too old"},
-        {"#define f(x) f2(x x)\n#define f2(x) f3(x x)\n#define f3(x) f4(x x)\n#define f4(x) f5(x x)\n"
-         "#define f5(x) f6(x x)\n#define f6(x) f7(x x)\n#define f7(x) f8(x x)\n#define f8(x) f9(x x)\n"
+        {"#define f(x) f2(x x)\n#define f2(x) f3(x x)\n#define f3(x) f4(x x)\n#define f4(x) f5(x "
+         "x)\n"
+         "#define f5(x) f6(x x)\n#define f6(x) f7(x x)\n#define f7(x) f8(x x)\n#define f8(x) f9(x "
+         "x)\n"
          "#define f9(x) g(x x)\n#define g(x) h(x x)\n#define h(x) i(x x)\n#define i(x) j(x x)\n"
          "#define j(x) k(x x)\n#define k(x) l(x x)\n#define l(x) m(x x)\n#define m(x) x x x x\n"
          "void main() { f(1 2 3 4) }",
@@ -370,14 +390,18 @@ TEST(MergerTest, whatCantBeMergedIsLeftOutWithItsCauseAndPlace)
          "a.frag:1: the varying 'uv' is vec4, but vec2 in the vertex stage"},
         {"#version 330 compatibility\nout uvec4 id;\nvoid main() { id = uvec4(1u); }",
          "a: its colour is of type uvec4, which can't be blended"},
-        {"#version 410 compatibility\nin vec2 uv; out vec4 c; subroutine uniform float s;\nvoid main() { c = vec4(1.0); }",
+        {"#version 410 compatibility\nin vec2 uv; out vec4 c; subroutine uniform float s;\nvoid "
+         "main() { c = vec4(1.0); }",
          "a.frag:2: subroutines can't be merged"},
-        {"#version 400 compatibility\nin vec2 uv; out vec4 c;\nvoid main() { c = vec4(interpolateAtCentroid(uv), 0.0, 1.0); }",
+        {"#version 400 compatibility\nin vec2 uv; out vec4 c;\nvoid main() { c = "
+         "vec4(interpolateAtCentroid(uv), 0.0, 1.0); }",
          "a.frag:3: interpolateAtCentroid can't be merged: varyings are packed"},
         {"uniform vec3 osg_FrameTime;\nvoid main() { gl_FragColor = vec4(osg_FrameTime, 1.0); }",
          "a: the uniform 'osg_FrameTime' is vec3, but float in another rendering"},
     };
-    const Rendering good = mergeCase("good", Head + "uniform float osg_FrameTime; void main() { gl_FragColor = vec4(osg_FrameTime); }");
+    const Rendering good = mergeCase(
+        "good",
+        Head + "uniform float osg_FrameTime; void main() { gl_FragColor = vec4(osg_FrameTime); }");
     for (const Refused& one : all)
     {
         const Merged merged = merge({good, mergeCase("a", one.fragment)});
@@ -392,8 +416,9 @@ TEST(MergerTest, otherStagesAreRefused)
 {
     Rendering one = mergeCase("a", Plain);
     one.shaders.push_back({GlslStage::Geometry, "void main() {}", "a.geom"});
-    EXPECT_EQ(errorsOf(merge({one})),
-              "a.geom: only vertex and fragment stages can be merged, not geometry or tessellation\n");
+    EXPECT_EQ(
+        errorsOf(merge({one})),
+        "a.geom: only vertex and fragment stages can be merged, not geometry or tessellation\n");
 }
 
 TEST(MergerTest, nothingToMergeIsNotOk)
@@ -410,8 +435,10 @@ TEST(MergerTest, nothingToMergeIsNotOk)
 TEST(MergerTest, logsAreExplainedWithTheirFilesAndLines)
 {
     const Merged merged = merge({mergePartner(), mergeCase("a", Plain)});
-    EXPECT_EQ(merged.explain("2:12(5): error: `x' undeclared"), "a.vert:12: error: `x' undeclared\n");
-    EXPECT_EQ(merged.explain("3(7) : error C1008: undefined"), "a.frag:7: error C1008: undefined\n");
+    EXPECT_EQ(merged.explain("2:12(5): error: `x' undeclared"),
+              "a.vert:12: error: `x' undeclared\n");
+    EXPECT_EQ(merged.explain("3(7) : error C1008: undefined"),
+              "a.frag:7: error C1008: undefined\n");
     EXPECT_EQ(merged.explain("ERROR: 1:3: 'x' : undeclared"), "partner.frag:3: 'x' : undeclared\n");
     EXPECT_EQ(merged.explain("4:9(1): warning: y"), "merged program:9: warning: y\n");
     EXPECT_EQ(merged.explain("linking failed\n\n99:1: z"), "linking failed\n99:1: z\n");
@@ -419,7 +446,9 @@ TEST(MergerTest, logsAreExplainedWithTheirFilesAndLines)
 
 TEST(MergerTest, commentsFollowTheNewNames)
 {
-    const Merged merged = merge({mergeCase("a", Head + "uniform float waveHeight; // waveHeight, not the wave\nvoid main() { gl_FragColor = vec4(waveHeight); }")});
+    const Merged merged =
+        merge({mergeCase("a", Head + "uniform float waveHeight; // waveHeight, not the wave\nvoid "
+                                     "main() { gl_FragColor = vec4(waveHeight); }")});
     EXPECT_NE(merged.fragment.find("// waveHeight_0, not the wave"), std::string::npos);
 }
 
