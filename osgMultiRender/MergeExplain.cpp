@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Compilers' logs in terms of the renderings' own files.
-#include <osgMultiRender/Merger.h>
+#include <osgMultiRender/MergeProgram.h>
 
 #include <charconv>
 #include <sstream>
@@ -70,7 +70,13 @@ std::string Merged::explain(const std::string& log) const
     {
         long file = 0, number = 0;
         std::string rest;
-        if (parse(line, file, number, rest) && static_cast<std::size_t>(file) < files.size())
+        const bool placed = parse(line, file, number, rest);
+        if (placed && number >= static_cast<long>(LinesPerFile))
+        {
+            file = number / static_cast<long>(LinesPerFile) - 1;
+            number %= static_cast<long>(LinesPerFile);
+        }
+        if (placed && static_cast<std::size_t>(file) < files.size())
         {
             result += files[static_cast<std::size_t>(file)].name + ":" + std::to_string(number) +
                       ": " + rest + "\n";

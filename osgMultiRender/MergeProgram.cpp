@@ -7,6 +7,11 @@
 namespace osgMultiRender
 {
 
+std::string lineDirective(std::size_t file, unsigned long line)
+{
+    return "#line " + std::to_string((file + 1) * LinesPerFile + line) + " " + std::to_string(file);
+}
+
 void MergeProgram::fail(const std::string& text)
 {
     failed = true;

@@ -154,6 +154,12 @@ bool arraySizes(const GlslSource& source, const GlslRange& range, std::vector<in
 void shareEntities(const std::vector<MergeProgram*>& programs, bool all,
                    MergeStatistics& statistics);
 
+/// Lines carry their file in front: some compilers (Mesa) lose the file's number of "#line".
+constexpr unsigned long LinesPerFile = 100000;
+
+/// "#line" that gives the next line a number in a file.
+std::string lineDirective(std::size_t file, unsigned long line);
+
 /// Finds what varyings and positions are worth, so that equal ones are known.
 void valueVaryings(MergeProgram& program);
 

@@ -281,6 +281,11 @@ private:
             _merged.uniforms.push_back(one);
         }
         MergedUniform& kept = _merged.uniforms[found->second];
+        if (kept.type != one.type)
+        {
+            program.fail(program.rendering->name + ": the uniform '" + name + "' is " + one.type +
+                         ", but " + kept.type + " in the vertex stage");
+        }
         kept.units = kept.units.empty() ? one.units : kept.units;
         kept.vertex = kept.vertex || !isFragment;
         kept.fragment = kept.fragment || isFragment;

@@ -51,8 +51,8 @@ private:
                 // Below 330 the directive numbers its own line, from there on the next one.
                 const unsigned long number =
                     std::stoul(std::string(textOf(_source.text, directive.parts[0])));
-                line = "#line " + std::to_string(number + (_source.version.number < 330 ? 1 : 0)) +
-                       " " + std::to_string(_stage.shaders[_index].file);
+                const std::size_t file = _stage.shaders[_index].file;
+                line = lineDirective(file, number + (_source.version.number < 330 ? 1 : 0));
             }
             _edit.replace(token.begin, token.end, line);
         }
@@ -381,7 +381,7 @@ std::string mergedText(const MergeProgram& program, const MergeStage& stage,
     std::string text;
     for (std::size_t i = 0; i < stage.shaders.size(); ++i)
     {
-        text += "#line 1 " + std::to_string(stage.shaders[i].file) + "\n";
+        text += lineDirective(stage.shaders[i].file, 1) + "\n";
         text += Writer(program, stage, i).run(version);
         text += text.back() == '\n' ? "" : "\n";
     }

@@ -115,8 +115,7 @@ private:
         const auto from = _text.begin() + static_cast<std::ptrdiff_t>(_counted);
         _lines += std::count(from, _text.end(), '\n');
         _counted = _text.size();
-        _text += "#line " + std::to_string(_lines + 2) + " " +
-                 std::to_string(_merged.files.size()) + "\n";
+        _text += lineDirective(_merged.files.size(), static_cast<unsigned long>(_lines) + 2) + "\n";
     }
 
     void vectors(const char* direction)
@@ -209,7 +208,7 @@ private:
                      std::to_string(_programs.size()) + ".0;\n}\n";
             return;
         }
-        _text += "\n#line 1 " + std::to_string(_merged.files.size() + 1) + "\n";
+        _text += "\n" + lineDirective(_merged.files.size() + 1, 1) + "\n";
         _text += _options.weights;
         _text += _options.weights.back() == '\n' ? "" : "\n";
         ownLine();

@@ -237,9 +237,9 @@ MergePicture MergeStudio::drawMerged(const Merged& merged, const std::vector<Mer
 {
     MergePicture picture;
     PlainProgram program;
-    const bool compiled = program.add(GL_VERTEX_SHADER, merged.vertex) &
-                          program.add(GL_FRAGMENT_SHADER, merged.fragment);
-    if (!compiled || !program.link())
+    const bool vertex = program.add(GL_VERTEX_SHADER, merged.vertex);
+    const bool fragment = program.add(GL_FRAGMENT_SHADER, merged.fragment);
+    if (!vertex || !fragment || !program.link())
     {
         picture.log = merged.explain(program.log());
         return picture;

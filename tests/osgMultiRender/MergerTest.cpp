@@ -396,6 +396,8 @@ TEST(MergerTest, whatCantBeMergedIsLeftOutWithItsCauseAndPlace)
         {"#version 400 compatibility\nin vec2 uv; out vec4 c;\nvoid main() { c = "
          "vec4(interpolateAtCentroid(uv), 0.0, 1.0); }",
          "a.frag:3: interpolateAtCentroid can't be merged: varyings are packed"},
+        {"uniform float n; void main() { gl_FragColor = vec4(n); }",
+         "a: the uniform 'n' is float, but vec3 in the vertex stage"},
         {"uniform vec3 osg_FrameTime;\nvoid main() { gl_FragColor = vec4(osg_FrameTime, 1.0); }",
          "a: the uniform 'osg_FrameTime' is vec3, but float in another rendering"},
     };
@@ -404,7 +406,11 @@ TEST(MergerTest, whatCantBeMergedIsLeftOutWithItsCauseAndPlace)
         Head + "uniform float osg_FrameTime; void main() { gl_FragColor = vec4(osg_FrameTime); }");
     for (const Refused& one : all)
     {
-        const Merged merged = merge({good, mergeCase("a", one.fragment)});
+        const bool uniform = std::string(one.fragment).compare(0, 15, "uniform float n") == 0;
+        const Merged merged = merge(
+            {good, mergeCase("a", one.fragment,
+                             uniform ? "uniform vec3 n; void main() { gl_Position = vec4(n, 1.0); }"
+                                     : "")});
         EXPECT_TRUE(merged.ok) << one.cause;
         EXPECT_FALSE(merged.renderings[1].included) << one.cause;
         EXPECT_EQ(errorsOf(merged).substr(0, std::string(one.cause).size()), one.cause);
@@ -441,6 +447,8 @@ TEST(MergerTest, logsAreExplainedWithTheirFilesAndLines)
               "a.frag:7: error C1008: undefined\n");
     EXPECT_EQ(merged.explain("ERROR: 1:3: 'x' : undeclared"), "partner.frag:3: 'x' : undeclared\n");
     EXPECT_EQ(merged.explain("4:9(1): warning: y"), "merged program:9: warning: y\n");
+    // Mesa's own way: the file is in the line's number.
+    EXPECT_EQ(merged.explain("0:300012(5): error: y"), "a.vert:12: error: y\n");
     EXPECT_EQ(merged.explain("linking failed\n\n99:1: z"), "linking failed\n99:1: z\n");
 }
 
