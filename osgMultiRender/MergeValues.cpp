@@ -125,7 +125,8 @@ private:
         {
             return false;
         }
-        std::string target = keyOf(at++);
+        const std::string whole = keyOf(at++);
+        std::string target = whole;
         if (word(at) == "[" && word(at + 2) == "]" &&
             _source.tokens[_tokens[at + 1]].kind == GlslToken::Kind::Number)
         {
@@ -143,7 +144,9 @@ private:
         {
             return false;
         }
-        if (known && target != "")
+        // An element ends what is known of the whole, and the whole what is known of elements.
+        target == whole ? forgetVariable(whole) : void(_values.erase(whole));
+        if (known && !whole.empty())
         {
             // An int that becomes a float is not the same as the int.
             _values[target] = type.empty() ? value : type + "{" + value + "}";
@@ -303,13 +306,17 @@ private:
             {
                 continue;
             }
-            const std::string key = keyOf(i);
-            for (auto it = _values.lower_bound(key);
-                 !key.empty() && it != _values.end() && it->first.compare(0, key.size(), key) == 0;)
-            {
-                const bool same = it->first.size() == key.size() || it->first[key.size()] == '[';
-                it = same ? _values.erase(it) : std::next(it);
-            }
+            forgetVariable(keyOf(i));
+        }
+    }
+
+    void forgetVariable(const std::string& key)
+    {
+        for (auto it = _values.lower_bound(key);
+             !key.empty() && it != _values.end() && it->first.compare(0, key.size(), key) == 0;)
+        {
+            const bool same = it->first.size() == key.size() || it->first[key.size()] == '[';
+            it = same ? _values.erase(it) : std::next(it);
         }
     }
 

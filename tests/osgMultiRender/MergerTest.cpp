@@ -163,20 +163,31 @@ TEST(MergerTest, varyingsOfEqualValueAreOne)
     EXPECT_EQ(merged.statistics.varyingVectors, 3);
 }
 
+/// How many varyings two programs share whose vertex stages end in `last`.
+std::size_t sharedBehind(const std::string& before, const std::string& last)
+{
+    const std::string vertex = "varying vec3 n; uniform float k;\n" + before +
+                               "void main() { n = gl_Normal; " + last +
+                               " gl_Position = ftransform(); }";
+    const std::string text = "varying vec3 n;\nvoid main() { gl_FragColor = vec4(n, 1.0); }";
+    const Merged merged = merge({mergeCase("a", text, vertex), mergeCase("b", text, vertex)});
+    EXPECT_TRUE(merged.ok);
+    return merged.statistics.sharedVaryings;
+}
+
 TEST(MergerTest, varyingsThatBranchesOrUniformsDecideAreNotShared)
 {
-    for (const char* last : {"if (gl_Color.r > 0.5) n = gl_Vertex.xyz;", "n.x += 1.0;", "n *= k;",
-                             "change();", "for (int i = 0; i < 2; ++i) n += 1.0;"})
+    EXPECT_EQ(sharedBehind("", ""), 1u);
+    EXPECT_EQ(sharedBehind("", "n = n * 2.0;"), 1u);
+    for (const char* last :
+         {"if (gl_Color.r > 0.5) n = gl_Vertex.xyz;", "n.x += 1.0;", "n *= 2.0;", "n = n * k;",
+          "for (int i = 0; i < 2; ++i) n += 1.0;", "{ n = gl_Vertex.xyz; }", "n[1] = 0.0;",
+          "vec3 a = n++;", "do n = -n; while (n.x > 0.0);", "return;"})
     {
-        const std::string vertex =
-            std::string("varying vec3 n; uniform float k; void change() { n *= 2.0; }\n"
-                        "void main() { n = gl_Normal; ") +
-            last + " gl_Position = ftransform(); }";
-        const std::string text = "varying vec3 n;\nvoid main() { gl_FragColor = vec4(n, 1.0); }";
-        const Merged merged = merge({mergeCase("a", text, vertex), mergeCase("b", text, vertex)});
-        EXPECT_TRUE(merged.ok);
-        EXPECT_EQ(merged.statistics.sharedVaryings, 0u) << last;
+        EXPECT_EQ(sharedBehind("", last), 0u) << last;
     }
+    EXPECT_EQ(sharedBehind("void change() { n *= 2.0; }\n", "change();"), 0u);
+    EXPECT_EQ(sharedBehind("void change(inout vec3 x) { x *= 2.0; }\n", "change(n);"), 0u);
 }
 
 TEST(MergerTest, varyingsArePackedIntoFullVectors)
