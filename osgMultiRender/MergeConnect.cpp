@@ -396,10 +396,15 @@ private:
         const std::string to = builtin(_program.fragment, "gl_TexCoord");
         for (int i : _program.fragment.texCoords)
         {
-            if (_program.vertex.texCoords.count(i))
+            const std::string index = "[" + std::to_string(i) + "]";
+            if (_program.vertex.texCoords.count(i) && !from.empty())
             {
-                const std::string index = "[" + std::to_string(i) + "]";
-                add(from.empty() ? "" : from + index, to.empty() ? "" : to + index, 4, "");
+                add(from + index, to + index, 4, "");
+            }
+            else if (!to.empty())
+            {
+                // OpenGL leaves open what is read where nothing is written.
+                _program.outputs.push_back(to + index + " = vec4(0.0)");
             }
         }
     }

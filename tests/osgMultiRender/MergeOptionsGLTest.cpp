@@ -3,6 +3,8 @@
 #include "osgMultiRender/MergeCases.h"
 #include "osgMultiRender/MergePicture.h"
 
+#include <osgMultiRender/Import.h>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -183,6 +185,23 @@ TEST_F(MergeOptionsGLTest, uniformBlocksKeepTheirMembersAndGetBindingsOfTheirOwn
     }
     EXPECT_EQ(merged.findUniform(0, "Colors")->ownBinding, 2);
     EXPECT_EQ(merged.findUniform(0, "Colors")->binding, 2);
+}
+
+TEST_F(MergeOptionsGLTest, imageShadersAreDrawnAndMerged)
+{
+    const Rendering image = importShadertoy(
+        "float wave(vec2 at) { return 0.5 + 0.5 * sin(at.x * 9.0 + iTime); }\n"
+        "void mainImage(out vec4 color, in vec2 at)\n{\n    vec2 uv = at / iResolution.xy;\n"
+        "    color = vec4(uv * 0.5, wave(uv), 1.0) * texture(iChannel0, uv);\n}\n",
+        "image.frag");
+    MergeStudio studio;
+    const std::vector<MergeEntry> entries = {{&image, 1.0}, {&_red, 1.0}};
+    const std::vector<MergePicture> alone = {studio.drawAlone(image), studio.drawAlone(_red)};
+    ASSERT_TRUE(alone[0].ok) << alone[0].log;
+    _options.weights = MergeStudio::weights(2);
+    const MergePicture picture = studio.drawMerged(mergeRenderings(entries, _options), entries);
+    ASSERT_TRUE(picture.ok) << picture.log;
+    EXPECT_LE(MergeStudio::compare(picture, alone).worst, 1.0 / 255.0);
 }
 
 TEST_F(MergeOptionsGLTest, errorsNameTheImportsOwnFileAndLine)
