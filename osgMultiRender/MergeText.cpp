@@ -2,6 +2,7 @@
 // A rendering's own text as it stands in the merged source.
 #include <osgMultiRender/MergeProgram.h>
 
+#include <osgMultiRender/GlslVocabulary.h>
 #include <osgMultiRender/MergeRename.h>
 
 #include <algorithm>
@@ -182,9 +183,16 @@ private:
         {
             stripLayout(specifiers);
         }
+        const bool plain = specifiers.typeArray.empty() && isBuiltinType(specifiers.type);
         for (std::size_t i = 0; i < all.size(); ++i)
         {
             const MergeEntity* one = find(all[i]->name);
+            if (_fragment && kept[i] && plain && one->kind == Kind::Varying &&
+                all[i]->array.empty())
+            {
+                // main() gives it its value; compilers that do not see that would warn.
+                _edit.insertBefore(all[i]->nameToken + 1, " = " + specifiers.type + "(0)");
+            }
             if (kept[i] && one && one->tainted && !all[i]->initializer.empty())
             {
                 moveInitializer(*all[i]);
@@ -401,10 +409,16 @@ std::string builtinGlobals(const MergeProgram& program, bool fragment)
                          : builtin == "gl_FragData"     ? stage.fragData
                          : builtin == "gl_ClipDistance" ? stage.clipDistances
                                                         : 0;
-        const std::string type = scalar ? "float " : "vec4 ";
-        text += type + name;
-        text += size ? "[" + std::to_string(size) + "];\n"
-                     : " = " + std::string(scalar ? "0.0" : "vec4(0.0)") + ";\n";
+        const std::string type = scalar ? "float" : "vec4";
+        const std::string zero = scalar ? "0.0" : "vec4(0.0)";
+        const std::string count = size ? "[" + std::to_string(size) + "]" : "";
+        std::string value = zero;
+        for (int i = 1; i < size; ++i)
+        {
+            value += ", " + zero;
+        }
+        value = size ? type + count + "(" + value + ")" : value;
+        text += type + " " + name + count + " = " + value + ";\n";
     }
     if (fragment && program.discards)
     {

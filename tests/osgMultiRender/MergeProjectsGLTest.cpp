@@ -82,6 +82,7 @@ protected:
         {
             return 0;
         }
+        EXPECT_EQ(picture.log.find("uninitialized"), std::string::npos) << picture.log;
         const MergeDifference difference = MergeStudio::compare(picture, alone);
         EXPECT_LE(difference.worst, Step) << names;
         EXPECT_GT(difference.covered, 500u) << names;
