@@ -127,7 +127,7 @@ private:
     std::map<std::string, Side> sidesOf(const MergeStage& stage)
     {
         std::map<std::string, Side> sides;
-        const std::set<std::string> used = usedGlobals(stage);
+        const std::set<std::string>& used = stage.usedGlobals;
         for (const auto& [name, entity] : stage.entities)
         {
             if (entity.kind == Kind::Varying)

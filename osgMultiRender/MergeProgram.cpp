@@ -147,24 +147,4 @@ int layoutValue(const GlslSource& source, const GlslSpecifiers& specifiers, std:
     return -1;
 }
 
-std::set<std::string> usedGlobals(const MergeStage& stage)
-{
-    std::set<std::string> used;
-    for (const MergeShader& shader : stage.shaders)
-    {
-        const GlslSource& source = shader.source;
-        for (std::size_t i = 0; i < source.tokens.size(); ++i)
-        {
-            const GlslUse& use = source.uses[i];
-            const bool variable =
-                use.kind == GlslUse::Kind::Global || use.kind == GlslUse::Kind::BlockMember;
-            if (variable && source.declarations[use.target].nameToken != i)
-            {
-                used.emplace(source.word(i));
-            }
-        }
-    }
-    return used;
-}
-
 } // namespace osgMultiRender

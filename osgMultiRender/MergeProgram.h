@@ -63,8 +63,9 @@ struct MergeStage
         builtins; ///< "gl_FragColor" to the global that stands for it.
     std::map<std::string, std::string> reserved; ///< Locals and fields that become keywords.
     std::set<std::string> usedBuiltins;
-    std::set<int> texCoords; ///< Elements of gl_TexCoord that are used.
-    int fragData = 0;        ///< Size of gl_FragData.
+    std::set<std::string> usedGlobals; ///< What code uses, beyond declaring it.
+    std::set<int> texCoords;           ///< Elements of gl_TexCoord that are used.
+    int fragData = 0;                  ///< Size of gl_FragData.
     int clipDistances = 0;
 
     bool uses(const std::string& builtin) const { return usedBuiltins.count(builtin) != 0; }
@@ -136,9 +137,6 @@ void nameMergeProgram(MergeProgram& program, MergeNames& names, int version);
 
 /// Finds the varyings of a program, by both stages' declarations, when it is named.
 void connectStages(MergeProgram& program, const std::vector<MergedFile>& files, bool clampColors);
-
-/// The globals that code uses, beyond declaring them.
-std::set<std::string> usedGlobals(const MergeStage& stage);
 
 /// The integer that tokens [first, last) are worth: numbers and constants of the text.
 long long constantOf(const GlslSource& source, std::size_t first, std::size_t last, bool& known);

@@ -396,6 +396,13 @@ private:
                 _program.discards = _program.discards || (isFragment(stage) && word == "discard");
                 continue;
             }
+            const GlslUse& meant = source.uses[i];
+            const bool variable =
+                meant.kind == GlslUse::Kind::Global || meant.kind == GlslUse::Kind::BlockMember;
+            if (variable && source.declarations[meant.target].nameToken != i)
+            {
+                stage.usedGlobals.emplace(word);
+            }
             // Redeclared ones are globals: "varying vec4 gl_TexCoord[2];".
             const GlslUse::Kind use = source.uses[i].kind;
             const bool redeclared = use == GlslUse::Kind::Global && word.substr(0, 3) == "gl_" &&

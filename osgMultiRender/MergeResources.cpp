@@ -205,7 +205,7 @@ private:
         std::map<std::string, std::size_t> made;
         for (MergeStage* stage : {&program.vertex, &program.fragment})
         {
-            const std::set<std::string> used = usedGlobals(*stage);
+            const std::set<std::string>& used = stage->usedGlobals;
             for (const auto& [name, entity] : stage->entities)
             {
                 if (entity.kind == Kind::Uniform || entity.kind == Kind::Block)

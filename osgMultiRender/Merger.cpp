@@ -173,15 +173,20 @@ private:
     /// Finds where the limit is passed and leaves the least important program out.
     void leaveOut(const Programs& programs)
     {
-        std::string passed;
-        const MergeProgram* by = nullptr;
-        for (std::size_t count = 1; count <= programs.size() && passed.empty(); ++count)
+        const auto passedBy = [&](std::size_t count)
         {
-            by = programs[count - 1];
-            measure(
-                Programs(programs.begin(), programs.begin() + static_cast<std::ptrdiff_t>(count)));
-            passed = passedLimit(_merged.statistics, _options.limits);
+            measure({programs.begin(), programs.begin() + static_cast<std::ptrdiff_t>(count)});
+            return passedLimit(_merged.statistics, _options.limits);
+        };
+        // With each rendering more is taken: the first count that passes, by halves.
+        std::size_t fits = 0, passes = programs.size();
+        while (passes - fits > 1)
+        {
+            const std::size_t middle = fits + (passes - fits) / 2;
+            (passedBy(middle).empty() ? fits : passes) = middle;
         }
+        const std::string passed = passedBy(passes);
+        const MergeProgram* by = programs[passes - 1];
         MergeProgram* least = programs.front();
         for (MergeProgram* program : programs)
         {

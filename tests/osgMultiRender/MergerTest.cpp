@@ -207,4 +207,23 @@ TEST(MergerTest, aHundredOfTheSameAreMerged)
     EXPECT_EQ(definitionsOf(merged.fragment, "partner_"), 100u);
 }
 
+TEST(MergerTest, limitsAreFoundInTimeAmongAHundred)
+{
+    std::vector<Rendering> all;
+    for (int i = 0; i < 100; ++i)
+    {
+        all.push_back(
+            mergeCase(("r" + std::to_string(i)).c_str(),
+                      "uniform float k; varying vec4 x;\nvoid main() { gl_FragColor = x; }",
+                      "uniform float k; varying vec4 x;\nvoid main() { x = gl_Vertex * "
+                      "k; gl_Position = ftransform(); }"));
+    }
+    const Merged merged = merge(all);
+    EXPECT_EQ(std::count_if(merged.renderings.begin(), merged.renderings.end(),
+                            [](const MergedRendering& one) { return one.included; }),
+              15);
+    // Searching each limit from the start again took seconds.
+    EXPECT_LT(merged.statistics.milliseconds, 2000.0);
+}
+
 } // namespace
