@@ -177,7 +177,7 @@ private:
         const MergeEntity* entity = find(all.front()->name);
         if (entity && (entity->kind == Kind::Varying || entity->kind == Kind::Output))
         {
-            _edit.setQualifiers(specifiers, "");
+            dropQualifiers(specifiers);
         }
         else if (entity && entity->kind == Kind::Uniform)
         {
@@ -213,6 +213,21 @@ private:
             if (_source.word(i) == ",")
             {
                 _edit.blank({i, i + 1});
+            }
+        }
+    }
+
+    /// Takes the qualifiers out, with the blanks behind them.
+    void dropQualifiers(const GlslSpecifiers& specifiers)
+    {
+        _edit.setQualifiers(specifiers, "");
+        for (const GlslQualifier& qualifier : specifiers.qualifiers)
+        {
+            const GlslToken& behind = _source.tokens[qualifier.range.last];
+            if (behind.kind == GlslToken::Kind::Whitespace &&
+                textOf(_source.text, behind).find('\n') == std::string_view::npos)
+            {
+                _edit.replace(behind.begin, behind.end, "");
             }
         }
     }
