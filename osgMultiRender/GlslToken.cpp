@@ -39,6 +39,10 @@ std::size_t operatorLength(std::string_view rest)
     static constexpr std::array<std::string_view, 22> longer = {
         "<<=", ">>=", "++", "--", "<=", ">=", "==", "!=", "&&", "||", "^^",
         "+=",  "-=",  "*=", "/=", "%=", "&=", "|=", "^=", "<<", ">>", "##"};
+    if (rest.size() < 2 || OperatorCharacters.find(rest[1]) == std::string_view::npos)
+    {
+        return 1;
+    }
     for (std::string_view candidate : longer)
     {
         if (rest.substr(0, candidate.size()) == candidate)
