@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/MixWeights.h>
+
+namespace osgMultiRender
+{
+
+/// Key points and weights in single precision, as shaders/mix.glsl reads them. Free of OSG and GL.
+///
+/// Positions are relative to the eye, after a subtraction in double precision: key points at 1e7
+/// are exact where the eye is near. Axes stay those of the key points, so that the tree's boxes
+/// stay boxes and the tree is not built anew when the eye moves.
+struct OSGMULTIRENDER_EXPORT MixTexels
+{
+    /// Up to so many segments there is no tree.
+    static constexpr std::size_t LinearSize = 16;
+
+    std::vector<glm::vec4> texels; ///< A buffer texture of RGBA32F, sampler osgmr_mix.
+    glm::mat3 frame{1.0f};         ///< Uniform osgmr_mixFrame: from eye space to the key points'.
+    /// Uniform osgmr_mixKeys: the tree's root or 0; the first segment; their number; texels each.
+    glm::ivec4 keys{0, 0, 0, 1};
+    /// Uniform osgmr_mixRules: number of renderings; base or -1; whether to normalise; 0.
+    glm::ivec4 rules{0, -1, 0, 0};
+    glm::vec4 background{0.0f}; ///< Uniform osgmr_mixBackground.
+
+    /// `keysToEye` is affine: the view matrix, after the matrix of the node that the key points
+    /// are attached to. One that cannot be inverted, or is not finite, leaves no key points: every
+    /// distance is infinite.
+    void set(const KeyPoints& points, const MixWeights& weights, const glm::dmat4& keysToEye);
+
+private:
+    void addRanges(const MixWeights& weights);
+    void addSegments(const KeyPoints& points, const glm::dvec3& eye);
+    void addNodes(const KeyTree& tree, const glm::dvec3& eye);
+};
+
+} // namespace osgMultiRender

@@ -1,0 +1,69 @@
+#version 120
+
+// A wall of bricks in the model's space, antialiased by integrals over the pixel: at any distance
+// it has the colour that the eye would average.
+
+uniform float bricks; // = 3 [0.05, 50]
+uniform vec3 brick; // = 0.62 0.25 0.17 [0, 1]
+uniform vec3 mortar; // = 0.80 0.77 0.72 [0, 1]
+uniform float joint; // = 0.12 [0, 0.5]
+
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec3 modelPosition;
+varying vec3 modelNormal;
+
+// Towards light 0.
+vec3 lightDirection(vec3 position)
+{
+    vec4 source = gl_LightSource[0].position;
+    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+}
+
+// Unit normal of the side that is seen.
+vec3 seenNormal(vec3 normal, vec3 position)
+{
+    vec3 n = normalize(normal);
+    return faceforward(n, position, n);
+}
+
+// Integral from 0 of what is 1 for the last share (1 - joint) of each unit, 0 before.
+vec2 solid(vec2 at)
+{
+    return floor(at) * (1.0 - joint) + max(fract(at) - joint, 0.0);
+}
+
+float cellNoise(vec2 cell)
+{
+    float x = fract(dot(mod(cell, 64.0), vec2(0.7549, 0.5698)));
+    return fract((x + 1.7) * (x + 9.1) * 57.3);
+}
+
+void main()
+{
+    vec3 wide = fwidth(modelPosition);
+    vec3 side = abs(modelNormal);
+    // The two coordinates along the side that the surface is nearest to.
+    vec2 at = modelPosition.xy, pixel = wide.xy;
+    if (side.x >= side.y && side.x > side.z)
+    {
+        at = modelPosition.yz;
+        pixel = wide.yz;
+    }
+    else if (side.y > side.z)
+    {
+        at = modelPosition.xz;
+        pixel = wide.xz;
+    }
+    vec2 scale = bricks * vec2(1.0, 2.0);
+    at *= scale;
+    pixel = max(pixel * scale, 1e-5);
+    at.x += 0.5 * mod(floor(at.y), 2.0);
+    vec2 share = clamp((solid(at + 0.5 * pixel) - solid(at - 0.5 * pixel)) / pixel, 0.0, 1.0);
+    float single = 1.0 - smoothstep(0.3, 1.0, max(pixel.x, pixel.y));
+    vec3 burnt = brick * (1.0 + 0.3 * single * (cellNoise(floor(at)) - 0.5));
+    vec3 wall = mix(mortar, burnt, share.x * share.y);
+    vec3 normal = seenNormal(eyeNormal, eyePosition);
+    float diffuse = max(dot(normal, lightDirection(eyePosition)), 0.0);
+    gl_FragColor = vec4(wall * (0.25 + 0.75 * diffuse), 1.0);
+}

@@ -1,0 +1,17 @@
+#version 120
+
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec3 modelPosition;
+varying vec3 modelNormal;
+varying vec4 color;
+
+void main()
+{
+    eyePosition = vec3(gl_ModelViewMatrix * gl_Vertex);
+    eyeNormal = gl_NormalMatrix * gl_Normal;
+    modelPosition = gl_Vertex.xyz;
+    modelNormal = gl_Normal;
+    color = gl_Color;
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}

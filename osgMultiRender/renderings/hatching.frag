@@ -1,0 +1,60 @@
+#version 120
+
+// Pen strokes along slices of the model, crossed where it is dark, equally dense on the screen
+// however near the surface is.
+
+uniform float spacing; // = 7 [3, 30]
+uniform float weight; // = 1 [0.2, 3]
+uniform vec3 ink; // = 0.1 0.1 0.2 [0, 1]
+uniform vec3 paper; // = 0.97 0.95 0.9 [0, 1]
+
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec3 modelPosition;
+
+// Towards light 0.
+vec3 lightDirection(vec3 position)
+{
+    vec4 source = gl_LightSource[0].position;
+    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+}
+
+// Unit normal of the side that is seen.
+vec3 seenNormal(vec3 normal, vec3 position)
+{
+    vec3 n = normalize(normal);
+    return faceforward(n, position, n);
+}
+
+// Coverage by strokes of a share of their spacing, `pixel` of which are a pixel.
+float strokes(float at, float pixel, float share)
+{
+    float fromMiddle = abs(fract(at) - 0.5);
+    return clamp((0.5 * share - fromMiddle) / pixel + 0.5, 0.0, 1.0) * step(1e-3, share);
+}
+
+// Strokes where the model meets planes across a direction. Their distance is a power of two of
+// the model's units, so that they stay on the surface; every second one fades as it comes near.
+float slices(vec3 direction, float share)
+{
+    float at = dot(modelPosition, direction);
+    float level = log2(max(length(vec2(dFdx(at), dFdy(at))), 1e-12) * spacing);
+    float scale = exp2(-floor(level)), fine = 1.0 - fract(level);
+    float pixel = exp2(fract(level)) / spacing;
+    float both = strokes(at * scale, pixel, share * exp2(fract(level)) * fine);
+    float coarse = strokes(0.5 * at * scale + 0.25, 0.5 * pixel, 0.5 * share * exp2(fract(level)));
+    return max(both, coarse);
+}
+
+void main()
+{
+    vec3 normal = seenNormal(eyeNormal, eyePosition);
+    float light = max(dot(normal, lightDirection(eyePosition)), 0.0);
+    float dark = 1.0 - light;
+    float first = slices(vec3(0.64, 0.60, 0.48), weight * 0.35 * smoothstep(0.15, 0.7, dark));
+    float second = slices(vec3(-0.60, 0.64, 0.48), weight * 0.35 * smoothstep(0.5, 1.0, dark));
+    float facing = dot(normal, -normalize(eyePosition));
+    float line = 1.5 * max(fwidth(facing), 0.02);
+    float outline = 1.0 - smoothstep(0.5 * line, line, facing);
+    gl_FragColor = vec4(mix(paper, ink, max(max(first, second), outline)), 1.0);
+}

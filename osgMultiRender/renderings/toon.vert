@@ -1,0 +1,13 @@
+#version 120
+
+varying vec3 eyePosition;
+varying vec3 eyeNormal;
+varying vec4 color;
+
+void main()
+{
+    eyePosition = vec3(gl_ModelViewMatrix * gl_Vertex);
+    eyeNormal = gl_NormalMatrix * gl_Normal;
+    color = gl_Color;
+    gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
+}

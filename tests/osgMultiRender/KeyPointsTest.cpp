@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "osgMultiRender/KeySets.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+using osgMultiRender::KeyMode;
+using osgMultiRender::KeyPoints;
+using osgMultiRender::KeySegment;
+using osgMultiRender::KeyTree;
+
+namespace
+{
+
+constexpr double Infinity = std::numeric_limits<double>::infinity();
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
+double lookAtAll(const KeyTree& tree, const glm::dvec3& place)
+{
+    double nearest = Infinity;
+    for (const KeySegment& segment : tree.getSegments())
+        nearest = std::min(nearest, segment.distance(place));
+    return nearest;
+}
+
+void compareWithBruteForce(const KeySet& set, KeyMode mode, std::mt19937& random, int places)
+{
+    const KeyPoints keys(set.points, mode);
+    ASSERT_EQ(keys.getNumPoints() + keys.getNumLeftOut(), set.points.size());
+    for (int i = 0; i < places; ++i)
+    {
+        const glm::dvec3 place = set.place(random);
+        const double distance = keys.distance(place);
+        ASSERT_EQ(distance, lookAtAll(keys.getTree(), place)) << i;
+        const double brute = bruteDistance(set.points, mode, place);
+        if (!std::isfinite(brute))
+        {
+            ASSERT_EQ(distance, brute);
+            continue;
+        }
+        // Both round at the size of the coordinates, once for each of a dozen operations.
+        const double scale = 2e7 + glm::length(place);
+        ASSERT_NEAR(distance, brute,
+                    12.0 * 1.2e-16 * (set.radius < 3.0 && set.name != "spread" ? 10.0 : scale))
+            << i;
+    }
+}
+
+int depthOf(const KeyTree& tree, std::uint32_t node)
+{
+    int depth = 1;
+    const KeyTree::Node& at = tree.getNodes()[node];
+    for (std::uint32_t i = 0; i < at.used; ++i)
+        if (at.children[i].count == 0)
+            depth = std::max(depth, 1 + depthOf(tree, at.children[i].first));
+    return depth;
+}
+
+} // namespace
+
+TEST(KeyPoints, treeEqualsBruteForceForAllSetsAndModes)
+{
+    std::mt19937 random(1);
+    for (const std::size_t count : {0, 1, 2, 3, 4, 5, 8, 9, 16, 17, 33, 100, 1000})
+        for (const KeySet& set : makeKeySets(count, 7))
+            for (const KeyMode mode : AllKeyModes)
+            {
+                SCOPED_TRACE(set.name + " " + std::to_string(count) + " mode " +
+                             std::to_string(int(mode)));
+                ASSERT_NO_FATAL_FAILURE(compareWithBruteForce(set, mode, random, 60));
+            }
+}
+
+TEST(KeyPoints, treeEqualsBruteForceFor10000)
+{
+    std::mt19937 random(2);
+    for (const KeySet& set : makeKeySets(10000, 8))
+        for (const KeyMode mode : AllKeyModes)
+        {
+            SCOPED_TRACE(set.name);
+            ASSERT_NO_FATAL_FAILURE(compareWithBruteForce(set, mode, random, 40));
+        }
+}
+
+TEST(KeyPoints, handComputedDistances)
+{
+    const std::vector<glm::dvec3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}};
+    const glm::dvec3 place(2, 1, 0);
+    EXPECT_DOUBLE_EQ(KeyPoints(corners).distance(place), std::sqrt(5.0));
+    EXPECT_DOUBLE_EQ(KeyPoints(corners, KeyMode::Polyline).distance(place), 1.0);
+    // The hypotenuse 3x - 4y = 0 is 2 / 5 away.
+    EXPECT_DOUBLE_EQ(KeyPoints(corners, KeyMode::PolylineLoop).distance(place), 0.4);
+}
+
+TEST(KeyPoints, withoutPointsEverythingIsInfinitelyFar)
+{
+    for (const KeyMode mode : AllKeyModes)
+    {
+        EXPECT_EQ(KeyPoints({}, mode).distance({1, 2, 3}), Infinity);
+        EXPECT_EQ(KeyPoints({{NaN, 0, 0}}, mode).distance({1, 2, 3}), Infinity);
+    }
+}
+
+TEST(KeyPoints, onePointOrEqualPointsOfALoopAreAPoint)
+{
+    for (const KeyMode mode : AllKeyModes)
+    {
+        EXPECT_EQ(KeyPoints({{1, 0, 0}}, mode).distance({1, 3, 4}), 5.0);
+        EXPECT_EQ(KeyPoints({{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}, mode).distance({1, 3, 4}), 5.0);
+    }
+}
+
+TEST(KeyPoints, aLoopOfTwoIsTheirSegment)
+{
+    const KeyPoints keys({{0, 0, 0}, {2, 0, 0}}, KeyMode::PolylineLoop);
+    EXPECT_EQ(keys.getTree().getSegments().size(), 1u);
+    EXPECT_EQ(keys.distance({1, 1, 0}), 1.0);
+}
+
+TEST(KeyPoints, whatIsNotANumberIsLeftOutAndItsNeighboursAreJoined)
+{
+    const KeyPoints keys({{0, 0, 0}, {NaN, 5, 0}, {4, 0, 0}, {0, Infinity, 0}, {0, 0, 1e16}},
+                         KeyMode::Polyline);
+    EXPECT_EQ(keys.getNumPoints(), 2u);
+    EXPECT_EQ(keys.getNumLeftOut(), 3u);
+    EXPECT_EQ(keys.distance({2, 7, 0}), 7.0);
+}
+
+TEST(KeyPoints, aPositionThatIsNotANumberIsInfinitelyFar)
+{
+    const KeyPoints keys({{0, 0, 0}, {1, 0, 0}}, KeyMode::Polyline);
+    for (const double bad : {NaN, Infinity, -Infinity, 1e300})
+        EXPECT_EQ(keys.distance({0, bad, 0}), Infinity) << bad;
+}
+
+TEST(KeyPoints, pointsBeyondTheLimitAreLeftOut)
+{
+    const KeyPoints keys(std::vector<glm::dvec3>(KeyPoints::MaxPoints + 5));
+    EXPECT_EQ(keys.getNumPoints(), KeyPoints::MaxPoints);
+    EXPECT_EQ(keys.getNumLeftOut(), 5u);
+    EXPECT_EQ(keys.distance({0, 2, 0}), 2.0);
+    // Three more places of the stack for each level of nodes.
+    EXPECT_LE(3 * depthOf(keys.getTree(), 0), KeyTree::MaxStack);
+}
+
+TEST(KeyPoints, aQueryLooksAtFewOf10000Points)
+{
+    std::mt19937 random(3);
+    for (const KeySet& set : makeKeySets(10000, 9))
+    {
+        const auto built = std::chrono::steady_clock::now();
+        // Lines between random points cross the whole set: no tree keeps them apart.
+        const KeyPoints keys(set.points, set.name == "path" || set.name == "circle"
+                                             ? KeyMode::Polyline
+                                             : KeyMode::Points);
+        const auto start = std::chrono::steady_clock::now();
+        double sum = 0.0;
+        for (int i = 0; i < 1000; ++i)
+            sum += keys.distance(set.place(random));
+        const std::chrono::duration<double> query = std::chrono::steady_clock::now() - start;
+        const std::chrono::duration<double> build = start - built;
+        std::printf("%-10s built in %5.2f ms, %6.2f us a query (%g)\n", set.name.c_str(),
+                    build.count() * 1e3, query.count() * 1e3, sum);
+        // Some 1 us here; looking at all would take over 50, sanitizers take ten times as long.
+        EXPECT_LT(query.count(), 0.02) << set.name;
+    }
+}
