@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/BufferTexture.h>
 
+#include <osgLabels/UnpackState.h>
+
 #include <osg/ContextData>
 #include <osg/GLExtensions>
 #include <osg/GLObjects>
@@ -154,6 +156,7 @@ void BufferTexture::resizePages(osg::State& state, std::size_t bytes)
         generateAndAssignTextureObject(_contextID, texture2DArray);
     bind(state);
     applyTexParameters(texture2DArray, state);
+    const UnpackState unpack(*gl); // without a buffer that the null would be a place in
     gl->glTexImage3D(texture2DArray, 0, static_cast<GLint>(internalFormatOf(_wordsPerTexel)),
                      PageSize, rows, layers, 0, formatOf(_wordsPerTexel), GL_UNSIGNED_INT, nullptr);
     getTextureObject(_contextID)->setAllocated(true);
@@ -180,6 +183,7 @@ void BufferTexture::writePages(const osg::State& state, std::size_t offset, cons
                                std::size_t bytes) const
 {
     const auto* gl = state.get<osg::GLExtensions>();
+    const UnpackState unpack(*gl);
     const std::size_t texelBytes = std::size_t(_wordsPerTexel) * 4;
     const auto* from = static_cast<const unsigned char*>(data);
     const auto size = static_cast<std::size_t>(PageSize);

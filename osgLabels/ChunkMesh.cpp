@@ -139,6 +139,14 @@ std::optional<MeshLayout> MeshLayout::of(const osg::Geometry& geometry)
     return layout;
 }
 
+bool ChunkMesh::isOne(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    const osg::Array* objects =
+        geometry ? geometry->getVertexAttribArray(ObjectAttribute) : nullptr;
+    return objects && objects->getName() == ObjectsName;
+}
+
 ChunkMesh::ChunkMesh(const MeshLayout& layout) : _layout(layout)
 {
     if (layout.colors == MeshLayout::BYTES)

@@ -49,6 +49,10 @@ public:
     static constexpr unsigned int ObjectAttribute = 6;
     static constexpr char ObjectsName[] = "osgLabels.objects"; ///< Of the array of the attribute.
 
+    /// Whether the drawable is what finish() has returned: its vertices say which objects they are
+    /// of.
+    static bool isOne(const osg::Drawable& drawable);
+
     explicit ChunkMesh(const MeshLayout& layout);
 
     /// `geometry` has the layout.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/GlyphTexture.h>
 
+#include <osgLabels/UnpackState.h>
+
 #include <osg/GLExtensions>
 #include <osg/Notify>
 #include <osg/State>
@@ -133,6 +135,7 @@ bool GlyphTexture::allocate(osg::State& state, std::size_t count, Uploaded& uplo
                                    columns * _imageWidth, _imageHeight, layers, 0)
         ->bind();
     applyTexParameters(Texture2DArray, state);
+    const UnpackState unpack(*state.get<osg::GLExtensions>());
     state.get<osg::GLExtensions>()->glTexImage3D(Texture2DArray, 0, _internalFormat,
                                                  columns * _imageWidth, _imageHeight, layers, 0,
                                                  _format, GL_UNSIGNED_BYTE, nullptr);
@@ -146,8 +149,7 @@ bool GlyphTexture::allocate(osg::State& state, std::size_t count, Uploaded& uplo
 void GlyphTexture::upload(osg::State& state, std::size_t image, const Uploaded& uploaded) const
 {
     const auto layers = static_cast<std::size_t>(uploaded.layers);
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    const UnpackState unpack(*state.get<osg::GLExtensions>());
     state.get<osg::GLExtensions>()->glTexSubImage3D(
         Texture2DArray, 0, static_cast<GLint>(image / layers) * _imageWidth, 0,
         static_cast<GLint>(image % layers), _imageWidth, _imageHeight, 1, _format, GL_UNSIGNED_BYTE,

@@ -40,7 +40,7 @@ public:
         _stateSet->addUniform(_styleCount, over | osg::StateAttribute::ON);
     }
 
-    const osg::StateSet* update(osg::State& state, LabelTable& table)
+    osg::ref_ptr<const osg::StateSet> update(osg::State& state, LabelTable& table)
     {
         _state = &state;
         _sent = 0;
@@ -50,7 +50,7 @@ public:
                      layout.probes);
         _styleCount->set(layout.styles);
         _state = nullptr;
-        return _stateSet.get();
+        return _stateSet;
     }
 
     bool resize(TableBuffer buffer, std::size_t bytes, unsigned int wordsPerTexel) override
@@ -105,23 +105,23 @@ LabelBuffers::LabelBuffers(std::shared_ptr<LabelTable> table, bool isPaged)
 
 LabelBuffers::~LabelBuffers() = default;
 
-LabelBuffers::Context& LabelBuffers::get(osg::State& state)
+std::shared_ptr<LabelBuffers::Context> LabelBuffers::get(osg::State& state)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     auto& context = _contexts[state.getContextID()];
     if (!context)
-        context = std::make_unique<Context>(*_table, _isPaged || BufferTexture::needsPages(state));
-    return *context;
+        context = std::make_shared<Context>(*_table, _isPaged || BufferTexture::needsPages(state));
+    return context;
 }
 
-const osg::StateSet* LabelBuffers::update(osg::State& state)
+osg::ref_ptr<const osg::StateSet> LabelBuffers::update(osg::State& state)
 {
-    return get(state).update(state, *_table);
+    return get(state)->update(state, *_table);
 }
 
 bool LabelBuffers::isPaged(osg::State& state)
 {
-    return get(state).isPaged();
+    return get(state)->isPaged();
 }
 
 LabelBuffers::Traffic LabelBuffers::getTraffic(unsigned int contextID) const

@@ -31,7 +31,7 @@ public:
     /// Uploads what changed since the context's last call. Returns the textures (units of
     /// LabelUnits.h) and uniforms, with OVERRIDE, over the model's own; it stays the same object
     /// for the context. To be called with the context current, once a frame or more often.
-    const osg::StateSet* update(osg::State& state);
+    osg::ref_ptr<const osg::StateSet> update(osg::State& state);
 
     /// Whether labelTable.glsl needs OSGLABELS_PAGED in the context. Never changes.
     bool isPaged(osg::State& state);
@@ -49,12 +49,13 @@ public:
 
 private:
     class Context;
-    Context& get(osg::State& state);
+    /// Others may release it meanwhile.
+    std::shared_ptr<Context> get(osg::State& state);
 
     const std::shared_ptr<LabelTable> _table;
     const bool _isPaged;
     mutable std::mutex _mutex;
-    mutable std::map<unsigned int, std::unique_ptr<Context>> _contexts;
+    mutable std::map<unsigned int, std::shared_ptr<Context>> _contexts;
 };
 
 } // namespace osgLabels

@@ -51,9 +51,9 @@ std::size_t placeIn(Vector& all, std::vector<Index>& free)
 
 LabelCollector::LabelCollector(std::shared_ptr<LabelTable> table,
                                std::shared_ptr<const LabelSource> source, Encode encode,
-                               std::uint32_t firstIdentifier, StyleOf styleOf)
+                               std::shared_ptr<Shared> shared, StyleOf styleOf)
     : _table(std::move(table)), _source(std::move(source)), _encode(std::move(encode)),
-      _styleOf(std::move(styleOf)), _offset(firstIdentifier - 1), _instances(1), _objects(1),
+      _styleOf(std::move(styleOf)), _shared(std::move(shared)), _instances(1), _objects(1),
       _labels(1)
 {
 }
@@ -165,11 +165,11 @@ std::uint32_t LabelCollector::addLabel(const LabelSource::Found& found, const os
     // Nodes that died may have lain where others are now.
     if (!identifier || _labels[identifier].original != original)
     {
-        identifier = static_cast<std::uint32_t>(placeIn(_labels, _freeLabels));
+        identifier = newLabel();
         _labels[identifier] = {found.text, key, original, 0, 0, depth};
-        _table->setCodes(identifier + _offset, _encode(found.text));
+        _table->setCodes(identifierOf(identifier), _encode(found.text));
         if (_styleOf && !found.style.empty())
-            _table->setStyle(identifier + _offset, _styleOf(found.style));
+            _table->setStyle(identifierOf(identifier), _styleOf(found.style));
     }
     Label& label = _labels[identifier];
     ++label.objects;
@@ -178,13 +178,41 @@ std::uint32_t LabelCollector::addLabel(const LabelSource::Found& found, const os
     return identifier;
 }
 
+std::uint32_t LabelCollector::newLabel()
+{
+    const bool isNew = _freeLabels.empty();
+    const auto label = static_cast<std::uint32_t>(placeIn(_labels, _freeLabels));
+    if (isNew)
+        _identifiers.add(label, _shared->identifiers.takeNext());
+    return label;
+}
+
+std::uint32_t LabelCollector::identifierOf(std::uint32_t label) const
+{
+    return _identifiers.rightOf(label).value_or(0);
+}
+
+std::uint32_t LabelCollector::labelOf(std::uint32_t identifier) const
+{
+    const std::uint32_t label = _identifiers.leftOf(identifier).value_or(0);
+    return _labels[label].objects ? label : 0;
+}
+
+void LabelCollector::reuse()
+{
+    _retiredObjects.release(_shared->frames,
+                            [this](std::uint32_t object) { _freeObjects.push_back(object); });
+    _retiredLabels.release(_shared->frames,
+                           [this](std::uint32_t label) { _freeLabels.push_back(label); });
+}
+
 void LabelCollector::removeObject(std::uint32_t object)
 {
     if (!object)
         return;
     const std::uint32_t identifier = _objects[object].identifier;
     _objects[object] = {};
-    _freeObjects.push_back(object);
+    _retiredObjects.add(object, _shared->frames);
     Label& label = _labels[identifier];
     if (--label.objects)
     {
@@ -192,12 +220,12 @@ void LabelCollector::removeObject(std::uint32_t object)
             label.object = 0;
         return;
     }
-    _table->remove(identifier + _offset);
+    _table->remove(identifierOf(identifier));
     if (const auto found = _byPath.find(label.key);
         found != _byPath.end() && found->second == identifier)
         _byPath.erase(found);
     label = {};
-    _freeLabels.push_back(identifier);
+    _retiredLabels.add(identifier, _shared->frames);
 }
 
 void LabelCollector::remove(std::size_t index)
@@ -232,6 +260,7 @@ bool LabelCollector::isCurrent(const osg::Group& group, const Entry& entry,
 void LabelCollector::sweep(const osg::Group& group, std::size_t count)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    reuse();
     std::size_t cost = 0;
     for (std::size_t seen = 0; cost < count && seen < _entries.size(); ++seen)
     {
@@ -245,6 +274,7 @@ void LabelCollector::sweep(const osg::Group& group, std::size_t count)
         if (!isCurrent(group, entry, count))
             remove(_next);
     }
+    reuse();
 }
 
 void LabelCollector::clear()
@@ -257,11 +287,8 @@ void LabelCollector::clear()
     _freeEntries.clear();
     _instances.resize(1);
     _freeInstances.clear();
-    _objects.resize(1);
-    _freeObjects.clear();
-    _labels.resize(1);
-    _freeLabels.clear();
     _new.clear();
+    reuse();
 }
 
 std::vector<std::uint32_t> LabelCollector::takeNew()
@@ -276,7 +303,7 @@ LabelCollector::Object LabelCollector::getObject(std::uint32_t object) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
     Object found = object < _objects.size() ? _objects[object] : Object();
-    found.identifier += found.identifier ? _offset : 0;
+    found.identifier = identifierOf(found.identifier);
     return found;
 }
 
@@ -304,8 +331,8 @@ bool LabelCollector::setText(std::uint32_t identifier, const std::string& utf8)
 {
     const LabelTable::Codes codes = _encode(utf8);
     std::lock_guard<std::mutex> lock(_mutex);
-    const std::uint32_t label = identifier - _offset;
-    if (label >= _labels.size() || !_labels[label].objects)
+    const std::uint32_t label = labelOf(identifier);
+    if (!label)
         return false;
     _labels[label].text = utf8;
     return _table->setCodes(identifier, codes);
@@ -314,22 +341,20 @@ bool LabelCollector::setText(std::uint32_t identifier, const std::string& utf8)
 bool LabelCollector::setStyle(std::uint32_t identifier, std::uint32_t style)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const std::uint32_t label = identifier - _offset;
-    return label < _labels.size() && _labels[label].objects && _table->setStyle(identifier, style);
+    return labelOf(identifier) != 0 && _table->setStyle(identifier, style);
 }
 
 std::string LabelCollector::getText(std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const std::uint32_t label = identifier - _offset;
-    return label < _labels.size() ? _labels[label].text : std::string();
+    return _labels[labelOf(identifier)].text;
 }
 
 osg::NodePath LabelCollector::getNodePath(const osg::Group& group, std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const std::uint32_t index = identifier - _offset;
-    if (index >= _labels.size() || !_labels[index].objects)
+    const std::uint32_t index = labelOf(identifier);
+    if (!index)
         return {};
     const Label& label = _labels[index];
     std::size_t object = label.object;
@@ -353,7 +378,7 @@ std::vector<std::uint32_t> LabelCollector::getIdentifiers() const
     std::vector<std::uint32_t> identifiers;
     for (std::size_t i = 1; i < _labels.size(); ++i)
         if (_labels[i].objects)
-            identifiers.push_back(static_cast<std::uint32_t>(i) + _offset);
+            identifiers.push_back(identifierOf(static_cast<std::uint32_t>(i)));
     return identifiers;
 }
 

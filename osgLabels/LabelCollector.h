@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/FramesInFlight.h>
 #include <osgLabels/InstanceFinder.h>
 #include <osgLabels/LabelSource.h>
 #include <osgLabels/LabelTable.h>
+#include <osgLabels/NumberSpace.h>
+#include <osgLabels/Stretches.h>
 
 #include <osg/Drawable>
 #include <osg/Group>
@@ -22,7 +25,8 @@ namespace osgLabels
 ///
 /// An object is a Drawable on one path from the group: one that hangs under several parents is
 /// several objects. Objects are numbered from 1, labels have identifiers from 1; both without gaps
-/// as long as nothing goes away, and free numbers are given again. All Drawables whose text comes
+/// as long as nothing goes away, and free numbers are given again when no frame in flight can show
+/// what they were. All Drawables whose text comes
 /// from the same node share its label. Nothing is written into the subgraph.
 ///
 /// Objects are found by collect() or when they are first in view, so what PagedLODs load later
@@ -36,14 +40,20 @@ class OSGLABELS_EXPORT LabelCollector
 {
 public:
     using Encode = std::function<LabelTable::Codes(const std::string& utf8)>;
-
     using StyleOf = std::function<std::uint32_t(const std::string& name)>;
 
+    /// What several share that number things for the same table.
+    struct Shared
+    {
+        NumberSpace identifiers;
+        FramesInFlight frames;
+    };
+
     /// Texts become codes by `encode` and names of styles numbers by `styleOf`, which are called
-    /// under the collector's lock; without the latter no label has a style of its own. Identifiers
-    /// count from `firstIdentifier`.
+    /// under the collector's lock; without the latter no label has a style of its own.
     LabelCollector(std::shared_ptr<LabelTable> table, std::shared_ptr<const LabelSource> source,
-                   Encode encode, std::uint32_t firstIdentifier = 1, StyleOf styleOf = {});
+                   Encode encode, std::shared_ptr<Shared> shared = std::make_shared<Shared>(),
+                   StyleOf styleOf = {});
     ~LabelCollector();
     LabelCollector(const LabelCollector&) = delete;
     LabelCollector& operator=(const LabelCollector&) = delete;
@@ -81,7 +91,7 @@ public:
     /// Looks at the next `count` Drawables whether they are as they were; to be called each frame.
     /// Of those with more instances than `count` only the number of parents is looked at.
     void sweep(const osg::Group& group, std::size_t count);
-    /// Forgets all. Identifiers begin anew.
+    /// Forgets all.
     void clear();
 
     /// The objects that are new since the last call; their numbers may have been others' before.
@@ -137,13 +147,19 @@ private:
                            std::uint32_t object);
     void remove(std::size_t entry);
     void removeObject(std::uint32_t object);
+    void reuse();
+    std::uint32_t newLabel();
+    /// Of a label; 0 for none.
+    std::uint32_t identifierOf(std::uint32_t label) const;
+    /// Of an identifier; 0 for one without objects.
+    std::uint32_t labelOf(std::uint32_t identifier) const;
     bool isCurrent(const osg::Group& group, const Entry& entry, std::size_t mostPaths) const;
 
     const std::shared_ptr<LabelTable> _table;
     const std::shared_ptr<const LabelSource> _source;
     const Encode _encode;
     const StyleOf _styleOf;
-    const std::uint32_t _offset; ///< From an index in _labels to an identifier.
+    const std::shared_ptr<Shared> _shared;
 
     mutable std::mutex _mutex;
     std::unordered_map<const osg::Drawable*, std::size_t> _byDrawable;
@@ -151,10 +167,12 @@ private:
     std::vector<std::size_t> _freeEntries;
     std::vector<std::unique_ptr<Instances>> _instances; ///< 0 is none.
     std::vector<std::uint32_t> _freeInstances;
-    std::vector<Object> _objects; ///< 0 is none.
+    std::vector<Object> _objects; ///< 0 is none. Their identifiers are indices in _labels.
     std::vector<std::uint32_t> _freeObjects, _new;
+    Retired<std::uint32_t> _retiredObjects, _retiredLabels;
     std::vector<Label> _labels; ///< 0 is none.
     std::vector<std::uint32_t> _freeLabels;
+    Stretches _identifiers; ///< Of labels.
     std::unordered_map<std::uint64_t, std::uint32_t> _byPath;
     std::size_t _next = 0; ///< Entry that the next sweep() begins with.
     std::size_t _views = 0;

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <optional>
 
 namespace osgLabels
 {
@@ -21,6 +22,33 @@ namespace
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
+/// Lets draws write one sample; leaves the mask as it was.
+class OneSample
+{
+public:
+    explicit OneSample(const osg::GLExtensions& gl) : _gl(gl), _wasOn(glIsEnabled(Mode))
+    {
+        LabelExtensions::instance().getIntegeri(Value, 0, &_mask);
+        glEnable(Mode);
+    }
+    ~OneSample()
+    {
+        _gl.glSampleMaski(0, static_cast<GLbitfield>(_mask));
+        if (!_wasOn)
+            glDisable(Mode);
+    }
+    OneSample(const OneSample&) = delete;
+    OneSample& operator=(const OneSample&) = delete;
+
+    void set(int sample) const { _gl.glSampleMaski(0, 1u << sample); }
+
+private:
+    static constexpr GLenum Mode = 0x8E51, Value = 0x8E52; ///< GL_SAMPLE_MASK, its value
+    const osg::GLExtensions& _gl;
+    const bool _wasOn;
+    GLint _mask = ~0;
+};
 
 } // namespace
 
@@ -85,16 +113,20 @@ std::string LabelPass::whyIncomplete(osg::State& state)
 
 void LabelPass::readPicked(osg::State& state)
 {
-    // Nothing lies beside the view.
-    if (!_asked || !(std::abs(_asked->x) <= 1.0) || !(std::abs(_asked->y) <= 1.0))
-        return;
     const auto pixel = [](double at, int first, int size)
     { return first + std::clamp(int((0.5 + 0.5 * at) * size), 0, std::max(0, size - 1)); };
-    const unsigned int index =
-        _targets->readIndex(state, pixel(_asked->x, _viewport[0], _viewport[2]),
-                            pixel(_asked->y, _viewport[1], _viewport[3]));
-    if (index != LabelTargets::Nothing)
-        _picked = _resources->objects.getIdentifier(index);
+    for (Asked& asked : _asked)
+    {
+        // Nothing lies beside the view.
+        if (!asked.question || !(std::abs(asked.question->x) <= 1.0) ||
+            !(std::abs(asked.question->y) <= 1.0))
+            continue;
+        const unsigned int index =
+            _targets->readIndex(state, pixel(asked.question->x, _viewport[0], _viewport[2]),
+                                pixel(asked.question->y, _viewport[1], _viewport[3]));
+        if (index != LabelTargets::Nothing)
+            asked.identifier = _resources->objects.getIdentifier(index);
+    }
 }
 
 void LabelPass::composite(osg::RenderInfo& renderInfo)
@@ -119,24 +151,18 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
         pass->addUniform(sample);
     state.pushStateSet(_under);
     state.pushStateSet(pass);
-    const auto* gl = state.get<osg::GLExtensions>();
-    constexpr GLenum sampleMask = 0x8E51;
+    std::optional<OneSample> one;
     for (int i = 0; i < samples; ++i)
     {
         sample->set(i);
         state.apply();
-        if (samples > 1)
-        {
-            glEnable(sampleMask);
-            gl->glSampleMaski(0, 1u << i);
-        }
+        if (samples > 1 && !one)
+            one.emplace(*state.get<osg::GLExtensions>());
+        if (one)
+            one->set(i);
         _resources->screen->draw(renderInfo);
     }
-    if (samples > 1)
-    {
-        gl->glSampleMaski(0, ~0u);
-        glDisable(sampleMask);
-    }
+    one.reset();
     state.popStateSet();
     state.popStateSet();
 }

@@ -5,6 +5,7 @@
 
 #include <osg/ApplicationUsage>
 #include <osg/Notify>
+#include <osg/View>
 #include <osgGA/EventVisitor>
 
 #include <string>
@@ -27,7 +28,7 @@ using KeyEvent = osgGA::GUIEventAdapter;
 
 void printPicked(LabelScene& scene)
 {
-    const std::optional<LabelScene::Picked> picked = scene.takePicked();
+    const std::optional<LabelScene::Picked> picked = scene.takePicked(PickAsker::Keys);
     if (!picked)
         return;
     const std::string line = picked->identifier ? std::to_string(picked->identifier) + " '" +
@@ -36,10 +37,18 @@ void printPicked(LabelScene& scene)
     OSG_NOTICE << "osgLabels: " << line << std::endl;
 }
 
-void answer(char key, LabelScene& scene, const KeyEvent& event)
+/// The camera that shows what the mouse is over; null where several do.
+const osg::Camera* cameraOf(osgGA::EventVisitor& visitor)
+{
+    const auto* view = dynamic_cast<const osg::View*>(visitor.getActionAdapter());
+    return view && view->getNumSlaves() == 0 ? view->getCamera() : nullptr;
+}
+
+void answer(char key, LabelScene& scene, const KeyEvent& event, osgGA::EventVisitor& visitor)
 {
     if (key == 'I')
-        scene.pick(event.getXnormalized(), event.getYnormalized());
+        scene.pick(event.getXnormalized(), event.getYnormalized(), cameraOf(visitor),
+                   PickAsker::Keys);
     else
         scene.setShown(!scene.isShown());
 }
@@ -66,7 +75,7 @@ void answerKeys(LabelScene& scene, osgGA::EventVisitor& visitor)
         for (const LabelKey& key : labelKeys())
             if (event->getKey() == key.key)
             {
-                answer(key.key, scene, *event);
+                answer(key.key, scene, *event, visitor);
                 event->setHandled(true);
                 if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
                     viewer->requestRedraw();

@@ -11,16 +11,24 @@ namespace osgLabels
 void LabelObjects::set(std::uint32_t object, const ObjectRecord& record)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    if (object >= _records.size())
-        _records.resize(object + 1);
+    while (object >= _records.size())
+    {
+        _indices.add(std::uint32_t(_records.size()), _space.takeNext());
+        _records.emplace_back();
+    }
     _records[object] = record.pack();
     _changed.push_back(object);
     _shapes |= 1u << (record.shape & ShapeMask);
 }
 
-const osg::StateSet* LabelObjects::update(osg::State& state)
+std::uint32_t LabelObjects::indexOf(std::uint32_t object) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    return _indices.rightOf(object).value_or(0);
+}
+
+LabelObjects::Context& LabelObjects::contextOf(osg::State& state)
+{
     Context& context = _contexts[state.getContextID()];
     if (!context.stateSet)
     {
@@ -31,18 +39,34 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
                                               osg::StateAttribute::OVERRIDE);
         context.stateSet->addUniform(new osg::Uniform("osgLabels_objects", int(ObjectsUnit)));
     }
+    return context;
+}
+
+osg::ref_ptr<const osg::StateSet> LabelObjects::update(osg::State& state)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    Context& context = contextOf(state);
     constexpr std::size_t bytes = sizeof(Words);
-    const std::size_t first = _batches.getNumObjects();
-    unsigned int batches = 0;
-    _batches.forEach([&](const PrimitiveBatch& batch, std::uint32_t)
-                     { batches += batch.getModifiedCount(); });
-    const bool isKept = context.texture->resize(state, (first + _records.size()) * bytes);
-    if (!isKept || context.batches != batches)
+    const std::uint64_t time = _batches.getTime(); // there is room for those that there are now
+    if (!context.texture->resize(state, _space.getEnd() * bytes))
     {
-        context.batches = batches;
-        writeAll(state, *context.texture);
+        const Words none{};
+        context.texture->write(state, 0, &none, bytes);
+        context.batches = 0;
+        write(state, *context.texture, 1, _records.size());
         context.changes = _changed.size();
     }
+    _batches.forEachRecord(context.batches, time,
+                           [&](std::uint32_t first, const std::uint32_t* words, std::uint32_t count)
+                           { context.texture->write(state, first * bytes, words, count * bytes); });
+    context.batches = time;
+    writeChanged(state, context);
+    dropTaken();
+    return context.stateSet;
+}
+
+void LabelObjects::writeChanged(osg::State& state, Context& context) const
+{
     std::vector<std::uint32_t> objects(_changed.begin() + std::ptrdiff_t(context.changes),
                                        _changed.end());
     context.changes = _changed.size();
@@ -51,60 +75,43 @@ const osg::StateSet* LabelObjects::update(osg::State& state)
     {
         for (end = i + 1; end < objects.size() && objects[end] <= objects[end - 1] + 1;)
             ++end;
-        const std::size_t begin = objects[i], last = objects[end - 1];
-        context.texture->write(state, (first + begin) * bytes, &_records[begin],
-                               (last + 1 - begin) * bytes);
+        write(state, *context.texture, objects[i], std::size_t(objects[end - 1]) + 1);
     }
-    const bool allHave =
-        std::all_of(_contexts.begin(), _contexts.end(),
-                    [this](const auto& each) { return each.second.changes == _changed.size(); });
-    if (allHave)
-    {
-        _changed.clear();
-        for (auto& each : _contexts)
-            each.second.changes = 0;
-    }
-    return context.stateSet.get();
 }
 
-void LabelObjects::writeAll(osg::State& state, BufferTexture& texture) const
+/// Objects from `object` to before `end`, wherever their records lie.
+void LabelObjects::write(osg::State& state, BufferTexture& texture, std::size_t object,
+                         std::size_t end) const
 {
-    constexpr std::size_t bytes = sizeof(Words), most = 1u << 16;
-    const Words none{};
-    texture.write(state, 0, &none, bytes);
-    std::vector<Words> part;
-    _batches.forEach(
-        [&](const PrimitiveBatch& batch, std::uint32_t first)
-        {
-            for (unsigned int i = 0; i < batch.getNumObjects(); ++i)
-            {
-                part.push_back(batch.getRecord(i).pack());
-                if (part.size() < most && i + 1 < batch.getNumObjects())
-                    continue;
-                texture.write(state, (first + i + 1 - part.size()) * bytes, part.data(),
-                              part.size() * bytes);
-                part.clear();
-            }
-        });
-    if (_records.size() > 1)
-        texture.write(state, (_batches.getNumObjects() + 1) * bytes, &_records[1],
-                      (_records.size() - 1) * bytes);
+    while (object < end)
+    {
+        const auto number = std::uint32_t(object);
+        const std::size_t count = std::min<std::size_t>(_indices.countFrom(number), end - object);
+        texture.write(state, *_indices.rightOf(number) * sizeof(Words), &_records[object],
+                      count * sizeof(Words));
+        object += count;
+    }
+}
+
+/// Forgets changes that all contexts have.
+void LabelObjects::dropTaken()
+{
+    if (!std::all_of(_contexts.begin(), _contexts.end(),
+                     [this](const auto& each) { return each.second.changes == _changed.size(); }))
+        return;
+    _changed.clear();
+    for (auto& each : _contexts)
+        each.second.changes = 0;
 }
 
 std::uint32_t LabelObjects::getIdentifier(std::uint32_t index) const
 {
-    std::uint32_t identifier = 0;
-    _batches.forEach(
-        [&](const PrimitiveBatch& batch, std::uint32_t first)
-        {
-            if (index >= first && index - first < batch.getNumObjects())
-                identifier = batch.getIdentifier(index - first);
-        });
-    std::lock_guard<std::mutex> lock(_mutex);
-    const std::size_t object = std::size_t(index) - _batches.getNumObjects();
-    if (index > _batches.getNumObjects() && object < _records.size())
-        identifier = _records[object].back();
-    return identifier;
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (const auto object = _indices.leftOf(index))
+            return _records[*object][ObjectRecord::IdentifierWord];
+    }
+    return _batches.getIdentifier(index);
 }
 
 std::uint32_t LabelObjects::getShapes() const
@@ -115,8 +122,7 @@ std::uint32_t LabelObjects::getShapes() const
 
 std::size_t LabelObjects::getBytes() const
 {
-    std::lock_guard<std::mutex> lock(_mutex);
-    return (_batches.getNumObjects() + _records.size()) * sizeof(Words);
+    return _space.getEnd() * sizeof(Words);
 }
 
 void LabelObjects::releaseGLObjects(osg::State* state)

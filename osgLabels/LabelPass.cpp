@@ -25,8 +25,7 @@ namespace
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
-/// The object index' vertex attribute: free beside those of the fixed function on all drivers.
-constexpr unsigned int indexAttribute = 6;
+constexpr unsigned int indexAttribute = ChunkMesh::ObjectAttribute;
 
 bool isParallel(const osg::Matrixd& projection)
 {
@@ -49,84 +48,46 @@ osg::Vec3d axisOf(LabelUp up)
     return {};
 }
 
-void forEachLeaf(osgUtil::RenderBin& bin, const std::function<void(const osgUtil::RenderLeaf&)>& f)
-{
-    for (const osgUtil::StateGraph* graph : bin.getStateGraphList())
-        for (const auto& leaf : graph->_leaves)
-            f(*leaf);
-    for (const auto& [number, inner] : bin.getRenderBinList())
-        forEachLeaf(*inner, f);
-}
-
-/// Its vertices say which objects they are of.
-bool isChunk(const osg::Drawable& drawable)
-{
-    const osg::Geometry* geometry = drawable.asGeometry();
-    const osg::Array* objects = geometry ? geometry->getVertexAttribArray(indexAttribute) : nullptr;
-    return objects && objects->getName() == ChunkMesh::ObjectsName;
-}
-
-/// Points have no surface to write on.
-bool isPoints(const osg::Drawable& drawable)
-{
-    const osg::Geometry* geometry = drawable.asGeometry();
-    if (!geometry || geometry->getNumPrimitiveSets() == 0)
-        return false;
-    const osg::Geometry::PrimitiveSetList& sets = geometry->getPrimitiveSetList();
-    return std::all_of(sets.begin(), sets.end(),
-                       [](const auto& primitives) { return primitives->getMode() == GL_POINTS; });
-}
-
 osg::Vec3d rotated(const osg::Vec3d& v, const osg::Matrixd& m)
 {
     return osg::Matrixd::transform3x3(v, m);
 }
 
+/// Of the directions; a product of two such lengths bounds how far one matrix stretches what the
+/// other squeezes.
+double lengthOf(const osg::Matrixd& m)
+{
+    double squares = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            squares += m(i, j) * m(i, j);
+    return std::sqrt(squares);
+}
+
+/// The inverse of a modelview matrix. Zero where it squeezes a direction so much that eye
+/// coordinates, in single precision, do not say where a point is: then nothing has a label.
+osg::Matrixd inverseOf(const osg::Matrixd& modelview)
+{
+    constexpr double most = 1e11;
+    const osg::Matrixd inverse = osg::Matrixd::inverse(modelview);
+    const bool isExact = lengthOf(modelview) * lengthOf(inverse) < most; // false for NaN, too
+    return isExact ? inverse : osg::Matrixd::scale(0.0, 0.0, 0.0);
+}
+
 } // namespace
 
-LabelPass::LabelPass(std::shared_ptr<LabelResources> resources) : _resources(std::move(resources))
+LabelPass::LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks)
+    : _resources(std::move(resources)), _picks(std::move(picks))
 {
 }
 
 LabelPass::~LabelPass()
 {
+    for (std::size_t i = 0; i < _asked.size(); ++i)
+        if (_asked[i].question) // the picture was not drawn
+            _picks->of[i].giveBack(*_asked[i].question);
     if (_targets)
         _resources->targets.release(_contextID, _targets);
-}
-
-void LabelPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
-{
-    if (!_resources || !_resources->collector)
-        return;
-    bool isEmpty = true;
-    {
-        LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
-        forEachLeaf(*visitor.getCurrentRenderBin()->getStage(),
-                    [&](const osgUtil::RenderLeaf& leaf)
-                    {
-                        isEmpty = false;
-                        const std::uint32_t object = objectOf(leaf, view);
-                        if (object)
-                            _objects.emplace(&leaf, object);
-                    });
-    }
-    _resources->fitNew();
-    if (isEmpty && _resources->pick.takeQuestion()) // nothing will be drawn
-        _resources->pick.answer(0);
-}
-
-std::uint32_t LabelPass::objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view)
-{
-    const osg::Drawable& drawable = *leaf._drawable;
-    if (dynamic_cast<const PrimitiveRun*>(&drawable)) // it says itself which
-        return _resources->batches.recordBaseOf(static_cast<const PrimitiveRun&>(drawable))
-                   ? SaysItself
-                   : 0;
-    if (isChunk(drawable)) // likewise
-        return SaysItself;
-    if (isPoints(drawable))
-        return 0;
-    return view.find(drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
 }
 
 void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame)
@@ -153,7 +114,6 @@ void LabelPass::begin(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
     const osg::Vec3d up = axisOf(_resources->settings.up);
     _up = view ? rotated(up, *view) : up;
     makeUnder(state);
-    _asked = _resources->pick.takeQuestion();
     _targets = _resources->targets.acquire(
         _contextID, {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3],
                      _resources->settings.texCoord >= 0, _target});
@@ -199,7 +159,7 @@ void LabelPass::classify(const osgMultiRender::SurfaceState& state, const osgUti
     }
     const osg::Geometry* geometry = leaf._drawable->asGeometry();
     const bool hasOther =
-        geometry && geometry->getVertexAttribArray(indexAttribute) && !isChunk(*geometry);
+        geometry && geometry->getVertexAttribArray(indexAttribute) && !ChunkMesh::isOne(*geometry);
     const bool isOneObject =
         key.instance && !dynamic_cast<const PrimitiveRun*>(leaf._drawable.get());
     if ((key.output & Labelled) && (key.program || hasOther || isOneObject))
@@ -246,7 +206,7 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
             clip(i, j) = projection(i, columns[j]);
-    const osg::Matrixd toLocal = osg::Matrixd::inverse(modelview);
+    const osg::Matrixd toLocal = inverseOf(modelview);
     const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
     osg::Vec3d rows[9];
     for (int i = 0; i < 3; ++i)
@@ -324,14 +284,14 @@ void LabelPass::setViewport(const osg::GLExtensions& gl,
                    2.0f / float(std::max(1, v[2])), 2.0f / float(std::max(1, v[3])));
 }
 
-LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const
+LabelPass::Index LabelPass::indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number)
 {
-    if (number != SaysItself)
-        return {GLint(_resources->objects.indexOf(number)), 0};
     // The drawable sets the attribute, or has an array of it.
-    if (auto* run = dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
-        return {0, _resources->batches.recordBaseOf(*run).value_or(0)};
-    return {0, GLint(_resources->objects.indexOf(0))};
+    if (dynamic_cast<const PrimitiveRun*>(leaf._drawable.get()))
+        return {0, GLint(number)};
+    if (ChunkMesh::isOne(*leaf._drawable))
+        return {0, GLint(number) - 1};
+    return {GLint(number), 0};
 }
 
 bool LabelPass::diverts(const SurfaceItem& item) const
@@ -341,11 +301,7 @@ bool LabelPass::diverts(const SurfaceItem& item) const
 
 void LabelPass::drawn(osg::RenderInfo&)
 {
-    // Where nothing labelled is in view nothing is under the point either.
-    if (_resources && !_asked && !_reason.empty())
-        _asked = _resources->pick.takeQuestion();
-    if (_asked)
-        _resources->pick.answer(_picked);
+    answer();
 }
 
 void LabelPass::fillPlan(osgMultiRender::Plan& plan) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelResources.h>
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTargets.h>
@@ -36,15 +37,16 @@ enum OutputBits : std::uint32_t
 class LabelPass : public osgMultiRender::SurfacePass
 {
 public:
-    /// Null: labels are not shown.
-    explicit LabelPass(std::shared_ptr<LabelResources> resources);
+    /// Without resources labels are not shown.
+    LabelPass(std::shared_ptr<LabelResources> resources, std::shared_ptr<LabelPicks> picks);
     ~LabelPass() override;
 
     osgMultiRender::SurfaceRole getRole() const override
     {
         return osgMultiRender::SurfaceRole::Output;
     }
-    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
+    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+              const osg::StateSet* scope) override;
     void begin(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceFrame& frame) override;
     void classify(const osgMultiRender::SurfaceState& state, const osgUtil::RenderLeaf& leaf,
                   bool ordered, osgMultiRender::SurfaceKey& key, std::uint32_t& number) override;
@@ -60,9 +62,6 @@ public:
     void fillPlan(osgMultiRender::Plan& plan) const override;
 
 private:
-    /// The number of a leaf whose drawable has the indices of its objects.
-    static constexpr std::uint32_t SaysItself = ~0u;
-
     /// osgLabels_Frame of locate.glsl, and one float more to fill seven texels.
     using Frame = std::array<float, 28>;
     /// Of an object's record: what the vertex attribute has, and what is added.
@@ -85,7 +84,7 @@ private:
                          osgMultiRender::SurfaceSnippet& snippet);
     void addLabel(const osgMultiRender::SurfaceKey& key,
                   osgMultiRender::SurfaceSnippet& snippet) const;
-    Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number) const;
+    static Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
     /// Of the leaf's frame among those of this view; negative where rays are parallel.
     int numberOf(const osgUtil::RenderLeaf& leaf);
@@ -94,7 +93,11 @@ private:
     void setViewport(const osg::GLExtensions& gl, const osg::Program::PerContextProgram& program,
                      const osg::Viewport* viewport) const;
     void clear(osg::State& state) const;
-    std::uint32_t objectOf(const osgUtil::RenderLeaf& leaf, LabelCollector::View& view);
+    void findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+                     const osg::StateSet* scope);
+    void addNumber(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
+    void takeQuestions(osgUtil::CullVisitor& visitor);
+    void answer();
     void readPicked(osg::State& state);
     /// Why OpenGL can't draw into the targets, said once on the console; empty where it can.
     std::string whyIncomplete(osg::State& state);
@@ -102,6 +105,7 @@ private:
     void makeUnder(osg::State& state);
 
     const std::shared_ptr<LabelResources> _resources;
+    const std::shared_ptr<LabelPicks> _picks;
     std::string _reason; ///< Why there are no labels in this view; empty where there are.
     unsigned int _contextID = 0;
     float _languageVersion = 3.3f;
@@ -109,13 +113,20 @@ private:
     GLint _viewport[4] = {};
     osgMultiRender::DrawTarget _target;
     osg::Vec3d _up; ///< Of the world, in eye coordinates.
-    /// Labelled objects in view: their numbers.
+    FramesInFlight::Ticket _ticket;
+    /// Labelled leaves in view: the index of their record; of a batch's run what is added to that
+    /// of an object in its page; of a chunk that of the first object.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;
     std::map<std::pair<const osg::RefMatrix*, const osg::RefMatrix*>, int> _frameNumbers;
-    std::optional<LabelPick::Point> _asked;
-    std::uint32_t _picked = 0; ///< What lies there, as far as is drawn.
+    /// What this picture is asked, by PickAsker, and what lies there, as far as is drawn.
+    struct Asked
+    {
+        std::optional<LabelPick::Question> question;
+        std::uint32_t identifier = 0;
+    };
+    std::array<Asked, LabelPicks::Askers> _asked;
     osg::ref_ptr<LabelTargets> _targets;
     osg::ref_ptr<osg::StateSet> _under;
     std::unordered_map<const osgMultiRender::SurfaceVariant*, Applied> _applied;

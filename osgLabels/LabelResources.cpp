@@ -16,6 +16,9 @@ namespace osgLabels
 namespace
 {
 
+/// Drawables that are looked at in each cull, whether they are still where they were.
+constexpr std::size_t sweptAtOnce = 256;
+
 void warn(const std::string& line)
 {
     OSG_WARN << "osgLabels::LabelScene: " << line << std::endl;
@@ -71,16 +74,12 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
         face, settings.proportional ? Spacing::Proportional : Spacing::Cells, warn);
     _atlas = new GlyphAtlas(_glyphs, widestOutline(settings));
     _atlas->setLegibleSize(settings.readable);
-    const std::uint32_t next =
-        batches.collect(group, *source, 1,
-                        [this](std::uint32_t identifier, const LabelSource::Found& label)
-                        {
-                            table->setCodes(identifier, encode(label.text));
-                            table->setStyle(identifier, styleOf(label.style).value_or(0));
-                        });
-    collector = std::make_unique<LabelCollector>(
-        table, source, [this](const std::string& text) { return encode(text); }, next,
-        [this](const std::string& name) { return styleOf(name).value_or(0); });
+    const auto encodeText = [this](const std::string& text) { return encode(text); };
+    const auto numberOfStyle = [this](const std::string& name)
+    { return styleOf(name).value_or(0); };
+    batches.setSource(source, encodeText, numberOfStyle);
+    batches.collect(group);
+    collector = std::make_unique<LabelCollector>(table, source, encodeText, shared, numberOfStyle);
     collector->collect(group);
     fitNew();
     if (settings.chunk)
@@ -92,19 +91,27 @@ LabelTable::Codes LabelResources::encode(const std::string& text)
     return _glyphs->codesOf(text);
 }
 
+void LabelResources::sweep(osg::Group& group)
+{
+    if (!collector)
+        return;
+    collector->sweep(group, sweptAtOnce);
+    batches.sweep();
+}
+
 void LabelResources::fitNew()
 {
     if (!collector)
         return;
-    std::unordered_map<const osg::Drawable*, ObjectRecord> records; // instances share theirs
+    std::unordered_map<const osg::Drawable*, ObjectRecord> fitted; // instances share theirs
     for (const std::uint32_t object : collector->takeNew())
     {
         const LabelCollector::Object found = collector->getObject(object);
         if (!found.drawable)
             continue;
-        auto record = records.find(found.drawable.get());
-        if (record == records.end())
-            record = records
+        auto record = fitted.find(found.drawable.get());
+        if (record == fitted.end())
+            record = fitted
                          .emplace(found.drawable.get(),
                                   recordOf(*found.drawable, settings.texCoord, found.identifier))
                          .first;
@@ -154,11 +161,7 @@ std::string LabelResources::getDefines(bool isPaged, std::uint32_t shapes) const
 
 bool LabelResources::setText(std::uint32_t identifier, const std::string& text)
 {
-    if (!collector)
-        return false;
-    if (batches.find(identifier).batch)
-        return table->setCodes(identifier, encode(text));
-    return collector->setText(identifier, text);
+    return collector && (batches.setText(identifier, text) || collector->setText(identifier, text));
 }
 
 std::string LabelResources::getText(std::uint32_t identifier) const
@@ -166,7 +169,9 @@ std::string LabelResources::getText(std::uint32_t identifier) const
     if (!collector)
         return {};
     const LabelBatches::Found found = batches.find(identifier);
-    return found.batch ? found.batch->getObjectName(found.object) : collector->getText(identifier);
+    if (!found.batch)
+        return collector->getText(identifier);
+    return found.hasText ? found.text : found.batch->getObjectName(found.object);
 }
 
 std::optional<std::uint32_t> LabelResources::styleOf(const std::string& name)

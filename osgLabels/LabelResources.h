@@ -7,7 +7,6 @@
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/LabelCollector.h>
 #include <osgLabels/LabelObjects.h>
-#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelPrograms.h>
 #include <osgLabels/LabelSettings.h>
 #include <osgLabels/LabelTable.h>
@@ -33,6 +32,9 @@ public:
     /// Why there are no labels; empty where there may be.
     const std::string& getError() const { return _error; }
 
+    /// Looks at some of what is known of `group`, whether it is still there; to be called in each
+    /// cull.
+    void sweep(osg::Group& group);
     /// Fits shapes to the objects that the collector has found since the last call.
     void fitNew();
     /// Texts, glyphs and records on the GPU, as they are now; for the current context.
@@ -59,13 +61,15 @@ public:
 
     const LabelSettings settings;
     const std::shared_ptr<LabelTable> table = std::make_shared<LabelTable>();
+    const std::shared_ptr<LabelCollector::Shared> shared =
+        std::make_shared<LabelCollector::Shared>();
+    NumberSpace records; ///< Numbers all object records.
     LabelBuffers buffers{table};
-    LabelBatches batches;
-    LabelObjects objects{batches};
+    LabelBatches batches{{table, shared->identifiers, records, shared->frames}};
+    LabelObjects objects{batches, records};
     std::unique_ptr<LabelCollector> collector; ///< Null where there is an error.
     osgMultiRender::TargetPool<LabelTargets> targets;
     LabelPrograms programs;
-    LabelPick pick;
     const osg::ref_ptr<osg::Geometry> screen = osgMultiRender::makeScreenTriangle();
 
 private:

@@ -12,14 +12,6 @@
 namespace osgLabels
 {
 
-namespace
-{
-
-/// Drawables that are looked at in each frame, whether they are still where they were.
-constexpr std::size_t sweptPerFrame = 256;
-
-} // namespace
-
 LabelScene::LabelScene()
 {
     // So that parents lead event visitors here; not for children, which have their own.
@@ -59,24 +51,23 @@ std::string LabelScene::getStyle(std::uint32_t identifier) const
     return resources ? resources->getStyle(identifier) : LabelStyle::DefaultName;
 }
 
-void LabelScene::pick(double x, double y)
+void LabelScene::pick(double x, double y, const osg::Camera* camera, PickAsker asker)
 {
-    const std::shared_ptr<LabelResources> resources = getResources();
-    if (resources && _isShown)
-        resources->pick.ask({x, y});
-    else if (resources)
-        resources->pick.answer(0);
+    LabelPick& pick = (*_picks)[asker];
+    pick.ask({x, y, camera});
+    if (!_isShown && pick.take(camera, true))
+        pick.answer({});
 }
 
-std::optional<LabelScene::Picked> LabelScene::takePicked()
+std::optional<LabelScene::Picked> LabelScene::takePicked(PickAsker asker)
 {
-    const std::shared_ptr<LabelResources> resources = getResources();
-    const std::optional<std::uint32_t> identifier =
-        resources ? resources->pick.takeAnswer() : std::nullopt;
-    if (!identifier)
+    const std::optional<LabelPick::Answer> answer = (*_picks)[asker].takeAnswer();
+    if (!answer)
         return std::nullopt;
-    return Picked{*identifier, resources->getText(*identifier),
-                  resources->getPath(*this, *identifier)};
+    if (!answer->resources)
+        return Picked{};
+    return Picked{answer->identifier, answer->resources->getText(answer->identifier),
+                  answer->resources->getPath(*this, answer->identifier)};
 }
 
 void LabelScene::setSettings(const LabelSettings& settings)
@@ -110,8 +101,8 @@ void LabelScene::collect()
     std::lock_guard<std::mutex> lock(_mutex);
     if (!_resources)
         _resources = std::make_shared<LabelResources>(_settings, *this);
-    else if (_resources->collector)
-        _resources->collector->sweep(*this, sweptPerFrame);
+    else
+        _resources->sweep(*this);
 }
 
 void LabelScene::traverse(osg::NodeVisitor& visitor)
@@ -141,7 +132,7 @@ void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const
 {
-    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr);
+    return std::make_unique<LabelPass>(_isShown ? getResources() : nullptr, _picks);
 }
 
 } // namespace osgLabels

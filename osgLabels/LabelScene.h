@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgLabels/Export.h>
+#include <osgLabels/LabelPick.h>
 #include <osgLabels/LabelSettings.h>
 
 #include <osgMultiRender/SurfaceGroup.h>
@@ -38,7 +39,7 @@ public:
     /// shows it. UTF-8; an empty text is none. False for an identifier that no object has.
     bool setText(std::uint32_t identifier, const std::string& text);
 
-    /// Counts from the next traversal on; not while one runs. Labels are collected anew.
+    /// UTF-8; not while another thread changes the subgraph.
     std::string getText(std::uint32_t identifier) const;
 
     /// Changes its style, likewise, to one of those that the settings name; LabelStyle::DefaultName
@@ -54,16 +55,20 @@ public:
         std::string text;
         std::string path; ///< Names of the nodes from this one down, "/scene/pump/P-101".
     };
-    /// Asks the view that is drawn next; `x` and `y` from -1 to 1 from its lower left corner.
-    /// Opaque surfaces count.
-    void pick(double x, double y);
-    /// The answer, once; none before it is there.
-    std::optional<Picked> takePicked();
+    /// Asks the next picture of the scene that a view shows, or the camera's own: one in the scene
+    /// that renders to a texture answers only where it is named. `x` and `y` from -1 to 1 from the
+    /// lower left corner of the picture. Opaque surfaces count.
+    void pick(double x, double y, const osg::Camera* camera = nullptr,
+              PickAsker asker = PickAsker::Application);
+    /// The answer to the last pick() of the asker, once; none before it is there. Not while another
+    /// thread changes the subgraph.
+    std::optional<Picked> takePicked(PickAsker asker = PickAsker::Application);
 
     /// Whether labels are drawn.
     void setShown(bool shown) { _isShown = shown; }
     bool isShown() const { return _isShown; }
 
+    /// Counts from the next traversal on; not while one runs. Labels are collected anew.
     void setSettings(const LabelSettings& settings);
     const LabelSettings& getSettings() const { return _settings; }
     /// As text, "size='0.3',ink='#ff0000'": all that differ from the defaults.
@@ -92,6 +97,7 @@ private:
     bool _isShown = true;
     mutable std::mutex _mutex;
     std::shared_ptr<LabelResources> _resources;
+    const std::shared_ptr<LabelPicks> _picks = std::make_shared<LabelPicks>();
 };
 
 } // namespace osgLabels

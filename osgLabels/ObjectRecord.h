@@ -31,7 +31,11 @@ enum class Shape : std::uint32_t
 enum ShapeFlags : std::uint32_t
 {
     ShapeMask = 0xffu,
-    Projected = 0x100u ///< A box around a mesh that was not recognised as a shape.
+    Projected = 0x100u, ///< A box around a mesh that was not recognised as a shape.
+    /// From this bit on, for x, y and z, how much of the faces across the axis no text may use, in
+    /// fifteenths; RoomBits each.
+    RoomShift = 9,
+    RoomBits = 4
 };
 
 /// What the fragment shader knows of one labelled object: 48 bytes in a texture buffer, three
@@ -44,7 +48,7 @@ struct ObjectRecord
     glm::vec3 size{0.0f};                       ///< See Shape; in units of the local coordinates.
     std::uint32_t identifier = 0;               ///< Of the label; 0 for none.
 
-    static constexpr std::size_t Words = 12;
+    static constexpr std::size_t Words = 12, IdentifierWord = 11;
 
     std::array<std::uint32_t, Words> pack() const
     {
@@ -54,7 +58,7 @@ struct ObjectRecord
         std::memcpy(words.data(), first, sizeof first);
         words[7] = shape;
         std::memcpy(words.data() + 8, &size[0], 3 * sizeof(float));
-        words[11] = identifier;
+        words[IdentifierWord] = identifier;
         return words;
     }
 };

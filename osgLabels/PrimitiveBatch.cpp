@@ -190,26 +190,6 @@ void PrimitiveBatch::setColor(unsigned int object, const osg::Vec4ub& color)
     page->setColor(inPage, kept);
 }
 
-void PrimitiveBatch::setIdentifier(unsigned int object, std::uint32_t identifier)
-{
-    const auto [page, inPage] = find(object);
-    page->setIdentifier(inPage, identifier);
-}
-
-unsigned int PrimitiveBatch::getModifiedCount() const
-{
-    unsigned int count = 0;
-    for (const osg::ref_ptr<RecordPage>& page : _pages)
-        count += page->getModifiedCount();
-    return count;
-}
-
-std::uint32_t PrimitiveBatch::getIdentifier(unsigned int object) const
-{
-    const auto [page, inPage] = find(object);
-    return page->getIdentifier(inPage);
-}
-
 int PrimitiveBatch::objectOf(const osg::Drawable* drawable, unsigned int primitiveIndex)
 {
     const auto* run = dynamic_cast<const PrimitiveRun*>(drawable);

@@ -67,11 +67,6 @@ public:
 
     /// What is shown from the next frame on. The alpha of an object stays what it was.
     void setColor(unsigned int object, const osg::Vec4ub& color);
-    /// The label of the object; 0, as at first, for none. Is not written to files.
-    void setIdentifier(unsigned int object, std::uint32_t identifier);
-    std::uint32_t getIdentifier(unsigned int object) const;
-    /// Grows when a record changes.
-    unsigned int getModifiedCount() const;
 
     /// The object that an intersection, by drawable and primitive index, has hit; -1 for drawables
     /// that are no PrimitiveRun.

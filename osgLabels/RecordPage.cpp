@@ -105,12 +105,6 @@ void RecordPage::setRecord(unsigned int i, const ObjectRecord& record)
     _records->dirty();
 }
 
-void RecordPage::setIdentifier(unsigned int i, std::uint32_t identifier)
-{
-    (*_records)[ObjectRecord::Words * i + 11] = identifier;
-    _records->dirty();
-}
-
 void RecordPage::setColor(unsigned int i, const osg::Vec4ub& color)
 {
     (*_colors)[i] = color;

@@ -25,11 +25,8 @@ public:
     unsigned int size() const { return static_cast<unsigned int>(_colors->size()); }
 
     ObjectRecord getRecord(unsigned int i) const;
+    /// Only before anything else has the page.
     void setRecord(unsigned int i, const ObjectRecord& record);
-    std::uint32_t getIdentifier(unsigned int i) const { return (*_records)[12 * i + 11]; }
-    void setIdentifier(unsigned int i, std::uint32_t identifier);
-    /// Grows when a record changes.
-    unsigned int getModifiedCount() const { return _records->getModifiedCount(); }
     const osg::Vec4ub& getColor(unsigned int i) const { return (*_colors)[i]; }
     void setColor(unsigned int i, const osg::Vec4ub& color);
 

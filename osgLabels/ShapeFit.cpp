@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/ShapeFit.h>
 
+#include <osgLabels/FaceRooms.h>
 #include <osgLabels/FitMesh.h>
 
 #include <algorithm>
@@ -124,6 +125,19 @@ void measure(const FitMesh& mesh, FittedShape& shape)
     shape.coarseness = std::sqrt(sum) / mesh.scale;
 }
 
+/// Whether the faces of its box are not all surface.
+bool mayBeCut(const FitMesh& mesh, const FittedShape& shape)
+{
+    if (shape.shape == Shape::Extrusion)
+        return true;
+    if (shape.shape == Shape::Quad)
+        return shape.projected;
+    const glm::dvec3 size = shape.size / mesh.scale;
+    return shape.shape == Shape::Box &&
+           (shape.projected ||
+            mesh.area < 7.9 * (size.x * size.y + size.y * size.z + size.z * size.x));
+}
+
 } // namespace
 
 double distanceTo(const FittedShape& shape, const glm::dvec3& point)
@@ -139,6 +153,8 @@ FittedShape fitShape(const std::vector<glm::vec3>& vertices,
         return {};
     FittedShape shape = fitAny(mesh);
     measure(mesh, shape);
+    if (mayBeCut(mesh, shape))
+        shape.rooms = faceRooms(mesh, shape);
     return shape;
 }
 
@@ -148,6 +164,8 @@ ObjectRecord FittedShape::record(std::uint32_t identifier) const
     made.rotation = glm::quat(rotation);
     made.origin = glm::vec3(origin);
     made.shape = std::uint32_t(shape) | (projected ? std::uint32_t(Projected) : 0u);
+    for (int i = 0; i < 3; ++i)
+        made.shape |= (FullRoom - rooms[i]) << (RoomShift + RoomBits * unsigned(i));
     made.size = glm::vec3(size);
     made.identifier = identifier;
     return made;

@@ -21,6 +21,10 @@ struct FittedShape
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0}; ///< From local coordinates to the shape's frame.
     glm::dvec3 origin{0.0};                  ///< Of the frame, in local coordinates.
     glm::dvec3 size{0.0};                    ///< See Shape.
+    /// Of boxes, quads and extrusions: how much of the faces across x, y and z text may use, from
+    /// their middles, in FullRoom-ths.
+    glm::uvec3 rooms{FullRoom};
+    static constexpr unsigned int FullRoom = 15;
     /// Farthest vertex from the shape, as a share of half the diagonal of the mesh's box; 0 for
     /// what is projected and for extrusions, whose profile may be any.
     double residual = 0.0;

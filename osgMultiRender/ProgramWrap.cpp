@@ -217,7 +217,9 @@ std::string errorsOf(const osg::Program& program, osg::State& state)
         if (compiled && !compiled->isCompiled() && compiled->getInfoLog(log))
             report(nameOf(shader), log);
     }
-    if (text.str().empty() && program.getGlProgramInfoLog(state.getContextID(), log))
+    // One that was never applied has none yet.
+    const osg::Program::PerContextProgram* linked = program.getPCP(state);
+    if (text.str().empty() && linked && linked->getInfoLog(log))
         report(program.getName().empty() ? "program" : program.getName(), log);
     return text.str();
 }

@@ -122,7 +122,8 @@ SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
                            osgUtil::RenderStage& stage)
     : osg::Referenced(true), _group(&group), _bin(&bin), _stage(bin.getStage()), _private(&stage)
 {
-    _passes.push_back({&group, group.createPass(), nullptr});
+    _passes.push_back({&group, group.createPass()});
+    _open.push_back(0);
     // Cameras nested in the subgraph take these from the stage that they find.
     _private->setPositionalStateContainer(_stage->getPositionalStateContainer());
     _private->setInheritedPositionalStateContainer(_stage->getInheritedPositionalStateContainer());
@@ -143,14 +144,28 @@ SurfaceFrame::SurfaceFrame(SurfaceGroup& group, osgUtil::RenderBin& bin,
 
 SurfaceFrame::~SurfaceFrame() = default;
 
-SurfacePass* SurfaceFrame::addPass(SurfaceGroup& group, const osg::StateSet& scope)
+SurfaceFrame::Nested SurfaceFrame::enter(SurfaceGroup& group)
 {
-    std::unique_ptr<SurfacePass> pass = group.createPass();
-    for (const Pass& other : _passes)
-        if (other.pass->getRole() == pass->getRole())
-            return nullptr;
-    _passes.push_back({&group, std::move(pass), &scope});
-    return _passes.back().pass.get();
+    const osg::StateSet* scope = group.nthStateSet(group._nested, _entered[&group]++);
+    const auto known = std::find_if(_passes.begin(), _passes.end(),
+                                    [&](const Pass& pass) { return pass.group == &group; });
+    auto place = std::uint16_t(known - _passes.begin());
+    if (known == _passes.end())
+        _passes.push_back({&group, group.createPass()});
+    const bool isCovered =
+        std::any_of(_open.begin(), _open.end(),
+                    [&](std::uint16_t open)
+                    { return open != NoPass && _passes[open].role() == _passes[place].role(); });
+    if (isCovered || _passes.size() > NoPass)
+    {
+        if (known == _passes.end())
+            _passes.pop_back();
+        place = NoPass;
+    }
+    else
+        _scopes.emplace(scope, place);
+    _open.push_back(place);
+    return {scope, place == NoPass ? nullptr : _passes[place].pass.get()};
 }
 
 bool SurfaceFrame::isDynamic() const

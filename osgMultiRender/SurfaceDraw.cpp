@@ -13,10 +13,19 @@ namespace osgMultiRender
 
 void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
 {
+    for (std::size_t i = 0, end = 0; i < count; i = end)
+    {
+        for (end = i + 1; end < count && items[end].passes == items[i].passes;)
+            ++end;
+        drawRun(renderInfo, items + i, end - i);
+    }
+}
+
+/// Leaves of the same passes.
+void SurfaceFrame::drawRun(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count)
+{
     osg::State& state = *renderInfo.getState();
-    if (count == 0)
-        return;
-    const osg::StateSet* under = mergeUnder();
+    const osg::StateSet* under = mergeUnder(items->passes);
     if (_withheld)
         state.pushStateSet(_withheld.get());
     if (under)
@@ -51,12 +60,13 @@ void SurfaceFrame::draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, s
 
 /// What the passes want below the variants, as one StateSet: pushed apart, a leaf that follows
 /// without a change of state would not get what the other one has set meanwhile.
-const osg::StateSet* SurfaceFrame::mergeUnder()
+const osg::StateSet* SurfaceFrame::mergeUnder(const SurfacePasses& passes)
 {
     std::vector<const osg::StateSet*> stateSets;
-    for (const Pass& pass : _passes)
-        if (const osg::StateSet* stateSet = pass.pass->startRun())
-            stateSets.push_back(stateSet);
+    for (const std::uint16_t place : passes)
+        if (place != NoPass)
+            if (const osg::StateSet* stateSet = _passes[place].pass->startRun())
+                stateSets.push_back(stateSet);
     if (stateSets.size() < 2)
         return stateSets.empty() ? nullptr : stateSets.front();
     if (stateSets != _mergedFrom)
@@ -117,10 +127,11 @@ void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
         if (!program || program->getProgram() != variant->getProgram())
             reportFailure(state, *variant);
         else
-            for (const Pass& pass : _passes)
-                if (pass.isLight() ? variant->getKey().kit : variant->getKey().output)
-                    pass.pass->apply(renderInfo, *variant, leaf,
-                                     item.numbers[std::size_t(pass.pass->getRole())]);
+            for (std::size_t role = 0; role < item.passes.size(); ++role)
+                if (item.passes[role] != NoPass &&
+                    (role == LightRole ? variant->getKey().kit : variant->getKey().output))
+                    _passes[item.passes[role]].pass->apply(renderInfo, *variant, leaf,
+                                                           item.numbers[role]);
     }
     if (state.getUseModelViewAndProjectionUniforms())
         state.applyModelViewAndProjectionUniformsIfRequired();
@@ -168,6 +179,19 @@ void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
                                 "it does not compile or link; its surfaces show the "
                                 "fixed-function look"});
     }
+    for (const SurfaceVariant* variant : _failedOutputs)
+    {
+        ++failed;
+        plan.entries.push_back(
+            {"output of program '" +
+                 (variant->getProgram() ? variant->getProgram()->getName() : std::string()) + "'",
+             PlanEntry::Decision::Dropped,
+             "the program does not compile or link with it; its surfaces keep "
+             "their look"});
+    }
+    if (isEmpty())
+        plan.entries.push_back(
+            {"everything", PlanEntry::Decision::Dropped, "nothing of it is in view"});
     for (const auto& [reason, number] : _beyond)
         plan.entries.push_back(
             {"fixed function", PlanEntry::Decision::Drawn,
@@ -188,7 +212,8 @@ void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
     {
         Plan own = plan;
         own.kit = std::string(pass.group->libraryName()) + "::" + pass.group->className();
-        pass.pass->fillPlan(own);
+        if (!isEmpty())
+            pass.pass->fillPlan(own);
         pass.group->setPlan(_stage->getCamera(), std::move(own));
     }
 }

@@ -15,16 +15,21 @@
 namespace osgMultiRender
 {
 
+/// The passes of a leaf in a SurfaceFrame, by role: their places, or NoPass.
+using SurfacePasses = std::array<std::uint16_t, 2>;
+constexpr std::uint16_t NoPass = 0xffff;
+
 /// One leaf of the subgraph and what draws it.
 struct SurfaceItem
 {
     osgUtil::RenderLeaf* leaf = nullptr;
     SurfaceVariant* variant = nullptr;      ///< Null: the leaf keeps its own state.
     std::array<std::uint32_t, 2> numbers{}; ///< The passes' numbers of the leaf, by role.
-    bool diverted = false;                  ///< Drawn through SurfacePass::divert().
-    std::uint32_t order = 0;                ///< Of the variant, by first appearance in the frame.
-    const SurfaceState* state = nullptr;    ///< Of the leaf; null below OpenGL 3.3.
-    const std::string* instance = nullptr;  ///< GLSL of its VertexSnippet; null for none.
+    SurfacePasses passes{NoPass, NoPass};
+    bool diverted = false;                 ///< Drawn through SurfacePass::divert().
+    std::uint32_t order = 0;               ///< Of the variant, by first appearance in the frame.
+    const SurfaceState* state = nullptr;   ///< Of the leaf; null below OpenGL 3.3.
+    const std::string* instance = nullptr; ///< GLSL of its VertexSnippet; null for none.
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -41,9 +46,15 @@ public:
     /// The pass of the group that draws.
     SurfacePass& getOwnPass() { return *_passes.front().pass; }
     SurfaceGroup& getGroup() { return *_group; }
-    /// Takes the pass of a nested group, for the leaves below `scope`. Null where the frame has one
-    /// with this role already.
-    SurfacePass* addPass(SurfaceGroup& group, const osg::StateSet& scope);
+    struct Nested
+    {
+        const osg::StateSet* scope = nullptr; ///< What the leaves have to be traversed under.
+        SurfacePass* pass = nullptr; ///< Null where a group around it has one with this role.
+    };
+    /// The traversal enters a nested group, perhaps not for the first time.
+    Nested enter(SurfaceGroup& group);
+    /// It leaves the one that it has entered last.
+    void leave() { _open.pop_back(); }
     bool isDynamic() const;
 
     /// The stage to traverse the subgraph with.
@@ -72,6 +83,9 @@ public:
 
     /// To be called once by each proxy when it has been drawn.
     void proxyDrawn(osg::RenderInfo& renderInfo);
+    bool isEmpty() const { return _bins.empty(); }
+    /// Instead of all that, for an empty one.
+    void drawNothing(osg::RenderInfo& renderInfo);
 
     /// Calls `f` for each leaf of the scope of `pass`, and tells whether it lies in a bin sorted by
     /// depth or traversal.
@@ -79,6 +93,8 @@ public:
                      const std::function<void(const osgUtil::RenderLeaf&, bool ordered)>& f) const;
     /// Calls `f` for each leaf. Only from SurfacePass::end() on.
     void forEachItem(const std::function<void(const SurfaceItem&)>& f) const;
+    /// Whether the leaf lies in the scope of the pass.
+    bool isOf(const SurfacePass& pass, const SurfaceItem& item) const;
 
     /// The StateSet for leaves with a VertexSnippet of this GLSL; null for those without.
     using StateFor = std::function<const osg::StateSet&(const std::string* instance)>;
@@ -103,13 +119,14 @@ private:
     {
         osg::ref_ptr<SurfaceGroup> group;
         std::unique_ptr<SurfacePass> pass;
-        const osg::StateSet* scope = nullptr; ///< Null: all leaves.
-        bool isLight() const { return pass->getRole() == SurfaceRole::Light; }
+        std::size_t role() const { return static_cast<std::size_t>(pass->getRole()); }
     };
+    static constexpr std::size_t LightRole = static_cast<std::size_t>(SurfaceRole::Light);
+    static constexpr std::size_t OutputRole = static_cast<std::size_t>(SurfaceRole::Output);
     /// What the leaves of one StateGraph have in common.
     struct Surface
     {
-        unsigned int passes = 0;               ///< Bits of those in whose scope it lies.
+        SurfacePasses passes{NoPass, NoPass};
         const osg::Program* program = nullptr; ///< The model's own.
         const std::string* instance = nullptr; ///< GLSL of a VertexSnippet.
         const SurfaceState* state = nullptr;
@@ -118,20 +135,27 @@ private:
         std::pair<const std::string, unsigned int>* beyond = nullptr; ///< In _beyond.
     };
     Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph);
-    unsigned int passesOf(const osgUtil::StateGraph* graph) const;
-    LightingMode lightingOf(unsigned int passes) const;
-    const osg::StateSet* mergeUnder();
-    void resolve(Surface& surface, osgUtil::RenderLeaf& leaf, bool ordered, SurfaceItem& item);
+    SurfacePasses passesOf(const osgUtil::StateGraph* graph) const;
+    LightingMode lightingOf(const SurfacePasses& passes) const;
+    const osg::StateSet* mergeUnder(const SurfacePasses& passes);
+    void resolve(osg::State& state, Surface& surface, osgUtil::RenderLeaf& leaf, bool ordered,
+                 SurfaceItem& item);
+    void classify(const Surface& surface, const osgUtil::RenderLeaf& leaf, bool ordered,
+                  SurfaceKey& key, SurfaceItem& item);
+    SurfaceSnippet makeSnippet(const SurfaceKey& key, const SurfacePasses& passes,
+                               bool hasProgram) const;
+    bool links(osg::State& state, SurfaceVariant& variant, const SurfacePasses& passes);
     void sayTooOld(float glVersion);
     void classifyAll(osg::RenderInfo& renderInfo);
     void withholdLights();
     void sortItems();
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
-    SurfaceVariant* variantOf(const SurfaceKey& key, const osg::Program* program,
-                              const std::string* instance);
+    SurfaceVariant* variantOf(const SurfaceKey& key, const SurfacePasses& passes,
+                              const osg::Program* program, const std::string* instance);
     SurfaceVariant* wrapperOf(const osg::Program& program);
     void reportFailure(osg::State& state, SurfaceVariant& variant);
     void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
+    void drawRun(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
     void drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
                  osgUtil::RenderLeaf* previous);
     void writePlan(osg::RenderInfo& renderInfo);
@@ -140,8 +164,11 @@ private:
     osg::ref_ptr<osgUtil::RenderBin> _bin;
     osg::ref_ptr<osgUtil::RenderStage> _stage;
     osg::ref_ptr<osgUtil::RenderStage> _private;
-    std::vector<Pass> _passes;           ///< The group's own first.
-    SurfacePass* _outputPass = nullptr;  ///< The one with SurfaceRole::Output.
+    std::vector<Pass> _passes; ///< The group's own first.
+    /// Those of the nested ones, by what their leaves were traversed under.
+    std::unordered_map<const osg::StateSet*, std::uint16_t> _scopes;
+    std::map<const SurfaceGroup*, std::size_t> _entered; ///< How often.
+    std::vector<std::uint16_t> _open;    ///< Passes of the groups that the traversal is in.
     std::vector<std::size_t> _diverted;  ///< One a bin: so many of its first items.
     osg::ref_ptr<osg::StateSet> _merged; ///< What several passes want below the variants.
     std::vector<const osg::StateSet*> _mergedFrom;
@@ -155,9 +182,12 @@ private:
     GLLights _lights{};
     std::unordered_map<const osgUtil::StateGraph*, SurfaceState> _states;
     std::unordered_map<const osgUtil::StateGraph*, Surface> _surfaces;
-    std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash> _variants;
+    std::map<SurfacePasses,
+             std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
+        _variants;
     std::unordered_map<const osg::Program*, SurfaceVariant*> _wrappers;
     std::set<const SurfaceVariant*> _failedWrappers; ///< Their leaves show the fixed-function look.
+    std::set<const SurfaceVariant*> _failedOutputs;  ///< Their leaves are drawn without the output.
     std::vector<std::vector<SurfaceItem>> _items;    ///< One a bin, grouped by variant.
     std::map<std::string, unsigned int> _beyond;     ///< Why leaves keep the fixed function.
     unsigned int _compiled = 0;

@@ -59,8 +59,14 @@ public:
     /// Keeps leaves as long as the stage has its pre-render stages: until its next cull.
     void keep(std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> leaves) { _kept = std::move(leaves); }
 
-    void draw(osg::RenderInfo&, osgUtil::RenderLeaf*&) override
+    /// For a frame that has no leaf.
+    void drawInstead(SurfaceFrame& frame) { _empty = &frame; }
+
+    void draw(osg::RenderInfo& renderInfo, osgUtil::RenderLeaf*&) override
     {
+        if (_empty)
+            _empty->drawNothing(renderInfo);
+        _empty = nullptr;
         withholdExtraLights(_stage.getInheritedPositionalStateContainer());
         withholdExtraLights(_stage.getPositionalStateContainer());
     }
@@ -68,6 +74,7 @@ public:
 private:
     osgUtil::RenderStage& _stage;
     std::vector<osg::ref_ptr<osgUtil::RenderLeaf>> _kept;
+    osg::ref_ptr<SurfaceFrame> _empty;
 };
 
 /// What pushScope() marks the StateGraphs in use with; these are emptied before each traversal.
@@ -87,7 +94,7 @@ struct ScopeMark
 
 SurfacePass::~SurfacePass() = default;
 
-void SurfacePass::cull(osgUtil::CullVisitor&, SurfaceGroup&) {}
+void SurfacePass::cull(osgUtil::CullVisitor&, SurfaceGroup&, const osg::StateSet*) {}
 
 void SurfacePass::drawBefore(osg::RenderInfo&, SurfaceFrame&) {}
 
@@ -136,10 +143,12 @@ void SurfaceGroup::cull(osgUtil::CullVisitor& visitor)
     osgUtil::StateGraph& proxies = pushScope(visitor);
     visitor.setCurrentRenderBin(&frame->getPrivateStage());
     cullSubgraph(visitor);
-    frame->getOwnPass().cull(visitor, *this);
+    frame->getOwnPass().cull(visitor, *this, nullptr);
     visitor.setCurrentRenderBin(bin);
     visitor.popStateSet();
     gate->keep(frame->insertProxies(proxies));
+    if (frame->isEmpty())
+        gate->drawInstead(*frame);
 }
 
 void SurfaceGroup::cullSubgraph(osg::NodeVisitor& visitor)
@@ -149,13 +158,13 @@ void SurfaceGroup::cullSubgraph(osg::NodeVisitor& visitor)
 
 void SurfaceGroup::cullNested(osgUtil::CullVisitor& visitor, SurfaceFrame& frame)
 {
-    const osg::StateSet* scope = nthStateSet(_nested, 0);
-    visitor.pushStateSet(scope);
-    SurfacePass* pass = frame.addPass(*this, *scope);
+    const SurfaceFrame::Nested nested = frame.enter(*this);
+    visitor.pushStateSet(nested.scope);
     cullSubgraph(visitor);
-    if (pass)
-        pass->cull(visitor, *this);
+    if (nested.pass)
+        nested.pass->cull(visitor, *this, nested.scope);
     visitor.popStateSet();
+    frame.leave();
 }
 
 osgUtil::StateGraph& SurfaceGroup::pushScope(osgUtil::CullVisitor& visitor)

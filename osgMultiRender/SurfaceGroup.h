@@ -27,7 +27,8 @@ class SurfaceFrame;
 class SurfaceGroup;
 struct SurfaceItem;
 
-/// What a pass contributes. Of nested kits with the same role the outermost one counts.
+/// What a pass contributes. Of kits with the same role inside of each other the outermost one
+/// counts; siblings inside of another kit each have theirs.
 enum class SurfaceRole : std::uint8_t
 {
     Light, ///< How surfaces are lit: SurfaceKey::kit.
@@ -43,7 +44,10 @@ public:
     virtual SurfaceRole getRole() const { return SurfaceRole::Light; }
 
     /// In the cull thread, when the subgraph has been traversed; `visitor` still stands at `group`.
-    virtual void cull(osgUtil::CullVisitor& visitor, SurfaceGroup& group);
+    /// Leaves of the group have `scope` on the path to their StateGraphs; null: all of the stage
+    /// are. Called once for each place of the group in an outer one.
+    virtual void cull(osgUtil::CullVisitor& visitor, SurfaceGroup& group,
+                      const osg::StateSet* scope);
     /// Whether the draw reads what the update may change, beside the leaves in view. Called after
     /// cull().
     virtual bool isDynamic() const { return false; }
@@ -137,7 +141,8 @@ private:
 
     mutable std::mutex _mutex;
     StateSets _scopes;
-    StateSets _nested; ///< One: tells the leaves of this group from others of the outer one.
+    StateSets
+        _nested; ///< Tell the leaves of this group, one a place, from others of the outer one.
     StateSets _proxies;
     struct ViewPlan
     {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace osgShadowVolume
@@ -60,9 +61,12 @@ void LightShadows::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGr
     _isClipped = MirrorCamera::isInside(visitor);
     CasterCollector collector(visitor, _settings.transparentCasters);
     collector.collect(group);
-    _casters = std::move(collector.getCasters());
-    _shadowless = std::move(collector.getShadowless());
-    _notCasting = collector.getLeftOut();
+    // The group may stand in several places.
+    _casters.insert(_casters.end(), std::make_move_iterator(collector.getCasters().begin()),
+                    std::make_move_iterator(collector.getCasters().end()));
+    _shadowless.merge(collector.getShadowless());
+    for (const auto& [what, count] : collector.getLeftOut())
+        _notCasting[what] += count;
     for (const Caster& caster : _casters)
         _isDynamic = _isDynamic || caster.dynamic;
 }

@@ -226,8 +226,10 @@ void LitPass::drawBefore(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
 {
     if (_shadows && !_lists.empty())
         _shadows->draw(renderInfo, frame, _used,
-                       [](const osgMultiRender::SurfaceItem& item)
-                       { return item.variant && (item.variant->getKey().kit & Shadowed); });
+                       [&](const osgMultiRender::SurfaceItem& item) {
+                           return item.variant && (item.variant->getKey().kit & Shadowed) &&
+                                  frame.isOf(*this, item);
+                       });
     _under = nullptr; // now there are shadows to be looked up
 }
 

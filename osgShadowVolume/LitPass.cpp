@@ -29,7 +29,8 @@ LitPass::LitPass(const LitScene& scene, const ShadowSettings& settings,
         _shadows = std::move(shadows);
 }
 
-void LitPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group)
+void LitPass::cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+                   const osg::StateSet*)
 {
     if (_shadows)
         _shadows->cull(visitor, group);

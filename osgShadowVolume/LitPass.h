@@ -34,7 +34,8 @@ public:
     /// What reflects. To be set before cull().
     void setMirrors(std::unique_ptr<Mirrors> mirrors) { _mirrors = std::move(mirrors); }
 
-    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group) override;
+    void cull(osgUtil::CullVisitor& visitor, osgMultiRender::SurfaceGroup& group,
+              const osg::StateSet* scope) override;
     bool isDynamic() const override;
 
     osgMultiRender::LightingMode getLighting() const override;

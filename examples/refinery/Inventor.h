@@ -8,7 +8,8 @@
 #include <string>
 
 /// Writes objects as Inventor 2.1 text: each a Separator with a DEF name, over a Cube, Cylinder or
-/// Sphere, or an IndexedFaceSet for the other shapes, which equal ones share.
+/// Sphere, or an IndexedFaceSet for the other shapes. Equal materials and face sets are shared, by
+/// references that are no names.
 class InventorWriter
 {
 public:
@@ -21,10 +22,13 @@ public:
 
 private:
     void writeShape(const osgLabels::Primitive& primitive);
+    /// Writes what stands before a node that equal ones share; true where the node has to follow.
+    /// "+3" is how Inventor itself refers to nodes without a name: readers drop it.
+    bool share(const std::string& key);
     void writeMesh(const osgLabels::Primitive& primitive, const std::string& key);
 
     std::ostream& _out;
-    std::map<std::string, int> _meshes; ///< Which were written.
+    std::map<std::string, int> _shared; ///< What was written, and its number.
 };
 
 /// What Inventor takes for a DEF name: a letter or underscore first, and none of "'+.\{} and white

@@ -28,7 +28,8 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
     around = min(around, 0.95f * band.room / (0.5f + sqrt(0.25f + 1.9f * bent * band.room)));
     // On what stands upright, text around is level, which is worth a third of its size.
     float least = abs(view.up.z) > 0.7071f * length(view.up) ? 0.75f : 1.5f;
-    bool runsAround = band.around || around > least * along;
+    bool isLong = band.room > osgLabels_Long * osgLabels_HalfPi * radius;
+    bool runsAround = band.around || (around > least * along && !isLong);
     line.em = runsAround ? around : along;
 
     float rho = max(length(vec2(p.x, p.y)), osgLabels_Tiny);
@@ -228,7 +229,7 @@ bool osgLabels_is(uint shape, uint which)
 }
 
 osgLabels_Line osgLabels_lineOf(osgLabels_View view, uint shape, vec3 p, vec3 normal, vec3 size,
-                                float width)
+                                uint rooms, float width)
 {
     float flatness = abs(normal.z) / max(length(normal), osgLabels_Tiny);
     if (osgLabels_is(shape, 2u) || osgLabels_is(shape, 5u))
@@ -244,7 +245,7 @@ osgLabels_Line osgLabels_lineOf(osgLabels_View view, uint shape, vec3 p, vec3 no
         return osgLabels_torus(view, p, size, width);
     if (osgLabels_is(shape, 8u))
         normal = vec3(0.0f, 0.0f, 1.0f);
-    return osgLabels_box(view, p, normal, size, width);
+    return osgLabels_box(view, p, normal, size, rooms, width);
 }
 
 // Where a point of an object lies on its label, a text of `width` em. `position` is relative to the
@@ -291,7 +292,7 @@ osgLabels_Place osgLabels_placeOn(osgLabels_Object object, vec3 position, vec3 d
         view.screenRight = frame * view.screenRight;
         vec3 normal = cross(dx, dy);
         normal /= max(max(abs(normal.x), max(abs(normal.y), abs(normal.z))), 1e-37f);
-        line = osgLabels_lineOf(view, shape, p, normal, object.size, width);
+        line = osgLabels_lineOf(view, shape, p, normal, object.size, object.shape >> 9u, width);
         for (int i = 0; i < 3; ++i)
         {
             float s = (float(i) - 1.0f) * 0.3333333f * width * line.em;

@@ -56,6 +56,8 @@ struct osgLabels_Line
 
 // The share of its room that a text may fill along the line.
 const float osgLabels_Fill = 0.9f;
+// What is more times as long as wide has its text along it, however short that is.
+const float osgLabels_Long = 3.003f;
 const float osgLabels_HalfPi = 1.57079633f;
 const float osgLabels_TwoPi = 6.28318531f;
 const float osgLabels_Tiny = 1e-30f;
@@ -120,20 +122,25 @@ vec3 osgLabels_toLine(osgLabels_Line line, vec3 q, float s)
     return d - outward + ahead + up * generator;
 }
 
-// A rectangle with its middle, unit axes and half sides.
+// A rectangle with its middle, unit axes and half sides, of which text may use a share.
 osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, vec3 b, vec2 side,
-                              float width)
+                              float share, float width)
 {
     osgLabels_Line line;
+    // What is long keeps its length: what is amiss there is so across it, as with profiles.
+    bool isLongA = side.x > osgLabels_Long * side.y;
+    bool isLongB = side.y > osgLabels_Long * side.x;
+    side *= vec2(isLongA && share > 0.0f ? 1.0f : share, isLongB && share > 0.0f ? 1.0f : share);
     float emA = osgLabels_em(view, 2.0f * side.x, 2.0f * side.y, width);
     float emB = osgLabels_em(view, 2.0f * side.y, 2.0f * side.x, width);
-    // Along the long side; but horizontal text may be smaller by a third. Equal ones are told
-    // apart by a margin, or rounding would.
+    // Along the long side; but horizontal text may be smaller by a third, unless it would stand
+    // across what is long. Equal ones are told apart by a margin, or rounding would.
     vec3 level = osgLabels_level(view, cross(a, b), middle);
     float levelA = abs(dot(level, a));
     float levelB = abs(dot(level, b));
     float sum = max(levelA + levelB, osgLabels_Tiny);
     bool alongA = 1.002f * emA * (1.0f + 0.5f * levelA / sum) > emB * (1.0f + 0.5f * levelB / sum);
+    alongA = isLongA || (alongA && !isLongB);
     line.along = alongA ? a : b;
     line.across = alongA ? b : a;
     line.em = alongA ? emA : emB;
@@ -144,7 +151,7 @@ osgLabels_Line osgLabels_face(osgLabels_View view, vec3 p, vec3 middle, vec3 a, 
     line.at = vec2(osgLabels_fromMiddle(dot(view.base, line.along), dot(p, line.along), count,
                                         osgLabels_period(room, count)),
                    dot(p + view.base - middle, line.across));
-    line.beyond = 0.0f;
+    line.beyond = share < 1.0f && !(alongA ? isLongA : isLongB) ? abs(dot(p + view.base, line.along)) - 0.5f * room : 0.0f;
     line.axis = vec3(0.0f);
     line.bend = vec2(0.0f);
     return line;
@@ -176,8 +183,15 @@ osgLabels_Line osgLabels_disc(osgLabels_View view, vec3 p, float z, float radius
     return line;
 }
 
+float osgLabels_share(uint room)
+{
+    return 1.0f - float(room & 15u) / 15.0f;
+}
+
 // The face of a box that the normal (largest component 1) points out of.
-osgLabels_Line osgLabels_box(osgLabels_View view, vec3 p, vec3 normal, vec3 size, float width)
+// `rooms`: 4 bits each for x, y and z, see ObjectRecord.h.
+osgLabels_Line osgLabels_box(osgLabels_View view, vec3 p, vec3 normal, vec3 size, uint rooms,
+                             float width)
 {
     vec3 x = vec3(1.0f, 0.0f, 0.0f);
     vec3 y = vec3(0.0f, 1.0f, 0.0f);
@@ -186,12 +200,12 @@ osgLabels_Line osgLabels_box(osgLabels_View view, vec3 p, vec3 normal, vec3 size
     vec3 q = p + view.base;
     if (n.z >= max(n.x, n.y))
         return osgLabels_face(view, p, vec3(0.0f, 0.0f, q.z < 0.0f ? -size.z : size.z), x, y,
-                              vec2(size.x, size.y), width);
+                              vec2(size.x, size.y), osgLabels_share(rooms >> 8u), width);
     if (n.y >= n.x)
         return osgLabels_face(view, p, vec3(0.0f, q.y < 0.0f ? -size.y : size.y, 0.0f), z, x,
-                              vec2(size.z, size.x), width);
+                              vec2(size.z, size.x), osgLabels_share(rooms >> 4u), width);
     return osgLabels_face(view, p, vec3(q.x < 0.0f ? -size.x : size.x, 0.0f, 0.0f), y, z,
-                          vec2(size.y, size.z), width);
+                          vec2(size.y, size.z), osgLabels_share(rooms), width);
 }
 
 // A side's text lies above its base line, a part of the way up.
@@ -210,7 +224,7 @@ osgLabels_Line osgLabels_pyramid(osgLabels_View view, vec3 p, float flatness, ve
                    max(length(vec2(max(size.x, size.y), 2.0f * size.z)), osgLabels_Tiny);
     if (flatness > 0.5f + 0.5f * widest)
         return osgLabels_face(view, p, vec3(0.0f, 0.0f, -size.z), vec3(1.0f, 0.0f, 0.0f),
-                              vec3(0.0f, 1.0f, 0.0f), vec2(size), width);
+                              vec3(0.0f, 1.0f, 0.0f), vec2(size), 1.0f, width);
     osgLabels_Line line;
     line.along = cross(vec3(0.0f, 0.0f, 1.0f), outward);
     line.across = (vec3(0.0f, 0.0f, 2.0f * size.z) - reach * outward) / slant;

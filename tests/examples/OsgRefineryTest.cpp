@@ -149,6 +149,9 @@ TEST_F(OsgRefineryTest, inventorFilesNameEachObject)
     Names names;
     node->accept(names);
     EXPECT_GE(names.names.size(), objects);
+    // What objects share has no name that would be taken for theirs.
+    for (const std::string& name : names.names)
+        EXPECT_NE(text.find("DEF " + name + " Separator"), std::string::npos) << name;
 }
 
 TEST_F(OsgRefineryTest, inventorFilesHoldTheSameAsTheBatch)

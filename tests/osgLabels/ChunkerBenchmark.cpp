@@ -3,12 +3,13 @@
 #include <osgLabels/Chunker.h>
 #include <osgLabels/LabelCollector.h>
 
+#include <support/ResidentMemory.h>
+
 #include <osg/Geometry>
 #include <osg/MatrixTransform>
 
 #include <cstdio>
 #include <ctime>
-#include <fstream>
 #include <string>
 
 using namespace osgLabels;
@@ -20,14 +21,6 @@ namespace
 double secondsSince(std::clock_t start)
 {
     return double(std::clock() - start) / CLOCKS_PER_SEC;
-}
-
-double residentMiB()
-{
-    std::ifstream file("/proc/self/statm");
-    double pages = 0.0;
-    file >> pages >> pages;
-    return pages * 4096.0 / 1048576.0;
 }
 
 osg::ref_ptr<osg::Geometry> makeBox()
@@ -74,11 +67,11 @@ void measure(int count, bool isShared)
     LabelCollector collector(table, LabelSource::create({}, error),
                              [](const std::string& text)
                              { return LabelTable::Codes(text.begin(), text.end()); });
-    const double before = residentMiB();
+    const double before = support::residentMiB();
     auto start = std::clock();
     collector.collect(*group);
     const double collected = secondsSince(start);
-    const double memory = residentMiB() - before;
+    const double memory = support::residentMiB() - before;
 
     const auto groupToEye = osg::Matrixd::rotate(1.0, osg::Vec3d(1, 2, 3));
     start = std::clock();
@@ -93,7 +86,7 @@ void measure(int count, bool isShared)
     collector.sweep(*group, 1000);
     const double swept = secondsSince(start);
 
-    const double beforeChunks = residentMiB();
+    const double beforeChunks = support::residentMiB();
     start = std::clock();
     Chunker chunker([&](const osg::NodePath& path) { return collector.getObject(*group, path); });
     const Chunks chunks = chunker.chunk(*group);
@@ -102,7 +95,7 @@ void measure(int count, bool isShared)
         "in %.3f ms; %zu chunks in %.3f s (%.1f MiB)\n",
         count, isShared ? "instanced" : "single", collected, memory, 1e9 * found / count,
         sum == std::uint64_t(count) * (std::uint64_t(count) + 1) / 2 ? "" : " WRONG", 1e3 * swept,
-        chunks.chunks, secondsSince(start), residentMiB() - beforeChunks);
+        chunks.chunks, secondsSince(start), support::residentMiB() - beforeChunks);
 }
 
 } // namespace

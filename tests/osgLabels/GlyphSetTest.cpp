@@ -113,7 +113,9 @@ TEST(GlyphSetTest, controlCharactersAreSpaces)
 {
     GlyphSet glyphs(getDefaultFace());
     const auto space = glyphs.codesOf(" ").at(0);
-    for (const std::uint32_t code : glyphs.codesOf("\t\n\x7F"))
+    const auto codes = glyphs.codesOf("\t\n\x7F");
+    ASSERT_EQ(codes.size(), 3u);
+    for (const std::uint32_t code : codes)
         EXPECT_EQ(glyphs.getGlyph(code)->outline.contours.size(),
                   glyphs.getGlyph(space)->outline.contours.size());
 }

@@ -90,10 +90,9 @@ TEST(InventorFitGLTest, recognisedShapesAreThoseOfTheirMeshes)
         std::cout << std::setw(10) << name << std::setw(6) << row.count << "  residual at most "
                   << row.residual << ", coarseness at most " << row.coarseness << "\n";
     std::cout << drawables << " drawables in " << 1e3 * seconds << " ms\n";
-    if (!support::inventorModels().empty())
-    {
-        EXPECT_GT(rows["cylinder"].count, 0);
-        EXPECT_GT(rows["sphere"].count, 0);
-        EXPECT_GT(rows["box"].count, 0);
-    }
+    if (support::inventorModels().empty())
+        GTEST_SKIP() << "NOT TESTED: inventor-data is not installed";
+    EXPECT_GT(rows["cylinder"].count, 0);
+    EXPECT_GT(rows["sphere"].count, 0);
+    EXPECT_GT(rows["box"].count, 0);
 }

@@ -5,7 +5,6 @@
 #include <osgLabels/PrimitiveBatch.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
-#include <support/NotifyCapture.h>
 #include <support/TemporaryFolder.h>
 
 #include <osg/BlendFunc>
@@ -26,12 +25,8 @@ using osgShadowVolume::ShadowedScene;
 namespace
 {
 
-class LabelComposition : public testing::Test
+class LabelComposition : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 osg::ref_ptr<ShadowedScene> shadowed(osg::Node* node)
@@ -113,13 +108,6 @@ bool waitForLabels(LabelScene& scene, double count)
         std::this_thread::sleep_for(std::chrono::milliseconds(i < 5 ? 0 : 100));
     }
     return countOf(scene, "labels.drawables") == count;
-}
-
-osg::ref_ptr<osg::Group> flat()
-{
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
-    return group;
 }
 
 } // namespace
@@ -220,7 +208,7 @@ TEST_F(LabelComposition, innerLabelsAreOnTheirPartOnly)
 
 TEST_F(LabelComposition, whatIsSwitchedOnLaterHasLabels)
 {
-    const osg::ref_ptr<osg::Group> root = flat();
+    const osg::ref_ptr<osg::Group> root = unlit();
     osg::ref_ptr<osg::Switch> choice = new osg::Switch;
     choice->addChild(box("ONE", {-0.5f, 0, 0}, {0.4f, 0.2f, 0.2f}), false);
     root->addChild(choice);
@@ -244,7 +232,7 @@ TEST_F(LabelComposition, whatThePagerLoadsHasLabels)
 {
     support::TemporaryFolder folder;
     const std::string file = folder.file("part.osgt");
-    const osg::ref_ptr<osg::Group> part = flat();
+    const osg::ref_ptr<osg::Group> part = unlit();
     part->addChild(box("PAGED", {0, 0, 0}, {0.6f, 0.2f, 0.3f}));
     ASSERT_TRUE(osgDB::writeNodeFile(*part, file));
     osg::ref_ptr<osg::PagedLOD> paged = new osg::PagedLOD;
@@ -260,7 +248,7 @@ TEST_F(LabelComposition, whatThePagerLoadsHasLabels)
 
 TEST_F(LabelComposition, withoutALabelledObjectInViewThereIsNoTargetAndNoPass)
 {
-    const osg::ref_ptr<osg::Group> root = flat();
+    const osg::ref_ptr<osg::Group> root = unlit();
     root->addChild(rectangle({-0.5f, 0, -0.5f}, {1, 0, 0}, {0, 0, 1}, {1, 1, 1, 1}));
     root->addChild(box("BEHIND", {0, -9, 0}, {0.4f, 0.2f, 0.2f}));
     const auto scene = labelled(root, Plain);

@@ -7,16 +7,11 @@
 #include <support/InventorModels.h>
 #include <support/NotifyCapture.h>
 
-#include <osg/NodeVisitor>
 #include <osg/Program>
 #include <osg/Shader>
-#include <osgDB/ReadFile>
 #include <osgUtil/Optimizer>
 
-#include <algorithm>
-#include <cctype>
 #include <cstdlib>
-#include <set>
 
 using namespace labelScene;
 
@@ -63,31 +58,6 @@ void expectOwnLook(osg::Node* model, const support::CameraSpec& camera, const st
         (support::CompareImage{2.0 / 255.0, 0.002, 1.0}(actual, expected, "labelLook." + name)));
 }
 
-/// Makes colors that are none black. Where a model has fewer materials than its binding asks for
-/// (simple/indexedTriangleMesh.iv), osgdb_iv fills the array from memory that nobody wrote.
-class TameColors : public osg::NodeVisitor
-{
-public:
-    TameColors() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Geometry& geometry) override
-    {
-        auto* colors = dynamic_cast<osg::Vec4Array*>(geometry.getColorArray());
-        for (unsigned int i = 0; colors && i < colors->size(); ++i)
-            for (unsigned int c = 0; c < 4; ++c)
-                if (float& value = (*colors)[i][c]; !(value >= 0.0f && value <= 1.0f))
-                    value = 0.0f;
-    }
-};
-
-std::set<std::string> families()
-{
-    std::set<std::string> names;
-    for (const FeatureScene& scene : featureScenes())
-        names.insert(scene.family);
-    return names;
-}
-
 /// Each eighth of Debian's models, or all.
 std::vector<std::string> models()
 {
@@ -98,16 +68,6 @@ std::vector<std::string> models()
     return some;
 }
 
-/// "chess/king.iv" as "chess_king", which GoogleTest takes for a name.
-std::string caseName(const std::string& path)
-{
-    const std::string folder = support::inventorModel("");
-    std::string name = path.substr(folder.size(), path.size() - folder.size() - 3);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-    return name;
-}
-
 class FeatureFamily : public testing::TestWithParam<std::string>
 {
 };
@@ -115,15 +75,6 @@ class FeatureFamily : public testing::TestWithParam<std::string>
 class InventorModel : public testing::TestWithParam<std::string>
 {
 };
-
-osg::ref_ptr<osg::Node> readModel(const std::string& path)
-{
-    osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(path);
-    TameColors tame;
-    if (model)
-        model->accept(tame);
-    return model;
-}
 
 } // namespace
 
@@ -148,18 +99,19 @@ TEST_P(FeatureFamily, keepsItsLookUnderLabels)
 TEST_P(InventorModel, keepsItsLookUnderLabels)
 {
     OSGKITS_NEED_GL(litViewer());
-    const osg::ref_ptr<osg::Node> model = readModel(GetParam());
+    const osg::ref_ptr<osg::Node> model = support::readInventorModel(GetParam());
     ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
     support::NotifyCapture notify;
     expectOwnLook(model, support::CameraSpec::overview(*model, double(SmallWidth) / SmallHeight),
-                  caseName(GetParam()));
+                  support::inventorCaseName(GetParam()));
 }
 
 TEST(LabelLook, anOptimizedModelKeepsItsLookAndItsNames)
 {
     OSGKITS_NEED_GL(litViewer());
     ASSERT_FALSE(support::inventorModels().empty());
-    const osg::ref_ptr<osg::Node> model = readModel(support::inventorModels().front());
+    const osg::ref_ptr<osg::Node> model =
+        support::readInventorModel(support::inventorModels().front());
     ASSERT_TRUE(model);
     support::NotifyCapture notify;
     const auto camera = support::CameraSpec::overview(*model, double(SmallWidth) / SmallHeight);
@@ -238,8 +190,8 @@ TEST(LabelLook, vertexAttributesOfModelsDoNotChangeItsLabel)
     EXPECT_TRUE(areEqual(actual, expected, "labelLook.attribute6"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, FeatureFamily, testing::ValuesIn(families()),
+INSTANTIATE_TEST_SUITE_P(Scenes, FeatureFamily, testing::ValuesIn(featureFamilies()),
                          [](const auto& family) { return family.param; });
 INSTANTIATE_TEST_SUITE_P(Models, InventorModel, testing::ValuesIn(models()),
-                         [](const auto& model) { return caseName(model.param); });
+                         [](const auto& model) { return support::inventorCaseName(model.param); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(InventorModel);

@@ -195,6 +195,7 @@ TEST(LabelOptionsTest, wrongTextIsNamedWithWhatMayBeSaid)
 
 TEST(LabelOptionsTest, noOptionButThoseOfTextTakesAnythingElse)
 {
+    ASSERT_FALSE(labelOptions().empty());
     for (const LabelOption& option : labelOptions())
     {
         if (option.name == "text" || option.name == "font" || option.name == "match")

@@ -4,9 +4,9 @@
 
 #include <osgLabels/PrimitiveBatch.h>
 
-#include <support/NotifyCapture.h>
-
 #include <osg/Camera>
+
+#include <limits>
 
 using namespace labelScene;
 using osgLabels::LabelScene;
@@ -14,12 +14,8 @@ using osgLabels::LabelScene;
 namespace
 {
 
-class LabelPick : public testing::Test
+class LabelPick : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 /// Two boards, left and right, below a named group.
@@ -78,7 +74,22 @@ TEST_F(LabelPick, isZeroForTheBackgroundAndWhatHasNoName)
     EXPECT_EQ(pickAt(*scene, 0.0, 0.7).text, "");
     EXPECT_EQ(pickAt(*scene, -1.0, -1.0).identifier, 0u);
     EXPECT_EQ(pickAt(*scene, 1.0, 1.0).identifier, 0u);
-    EXPECT_EQ(pickAt(*scene, 7.0, -7.0).identifier, 0u) << "beyond the view";
+}
+
+TEST_F(LabelPick, isZeroBeyondTheView)
+{
+    // What is in view covers it all and goes on beyond.
+    const auto scene =
+        labelled(named("WALL", rectangle({-40, 0, -40}, {80, 0, 0}, {0, 0, 80}, {1, 1, 1, 1})));
+    ASSERT_TRUE(render(*scene));
+    for (double x : {-0.999, 0.0, 0.999})
+        for (double y : {-0.999, 0.0, 0.999})
+            EXPECT_EQ(pickAt(*scene, x, y).text, "WALL") << x << ' ' << y;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& [x, y] :
+         {std::pair(7.0, -7.0), std::pair(1.01, 0.0), std::pair(-1.01, 0.0), std::pair(0.0, 1.01),
+          std::pair(0.0, -1.01), std::pair(1e300, 0.0), std::pair(nan, 0.0), std::pair(0.0, nan)})
+        EXPECT_EQ(pickAt(*scene, x, y).identifier, 0u) << x << ' ' << y;
 }
 
 TEST_F(LabelPick, isAnsweredWhereNothingIsInView)

@@ -20,6 +20,12 @@ support::HeadlessViewer& viewer()
     return theViewer;
 }
 
+void PictureTest::SetUp()
+{
+    OSGKITS_NEED_GL(viewer());
+    viewer().getViewer().getCamera()->getGraphicsContext()->makeCurrent();
+}
+
 osg::ref_ptr<osg::Geometry> rectangle(const osg::Vec3& corner, const osg::Vec3& width,
                                       const osg::Vec3& height, const osg::Vec4& color)
 {
@@ -62,6 +68,15 @@ osg::ref_ptr<osg::Geode> box(const std::string& name, const osg::Vec3& center,
     osg::ref_ptr<osg::ShapeDrawable> drawable = new osg::ShapeDrawable(shape);
     drawable->setColor(color);
     return named(name, drawable);
+}
+
+osg::ref_ptr<osg::Group> unlit(osg::Node* node)
+{
+    osg::ref_ptr<osg::Group> group = new osg::Group;
+    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    if (node)
+        group->addChild(node);
+    return group;
 }
 
 osg::ref_ptr<osgLabels::LabelScene> labelled(osg::Node* node, const std::string& settings)

@@ -5,9 +5,13 @@
 
 #include <support/CompareImage.h>
 #include <support/HeadlessViewer.h>
+#include <support/NotifyCapture.h>
 
 #include <osg/Geode>
 #include <osg/Geometry>
+#include <osg/Group>
+
+#include <gtest/gtest.h>
 
 #include <string>
 
@@ -28,6 +32,15 @@ extern const char* const Plain;
 /// Of this process; its headlight is off.
 support::HeadlessViewer& viewer();
 
+/// The fixture of tests that draw with it: warnings that no test takes are failures.
+class PictureTest : public testing::Test
+{
+protected:
+    void SetUp() override;
+
+    support::NotifyCapture _notify;
+};
+
 /// A parallelogram of one colour, not lit, of 4 x 4 quads so that shading has vertices.
 osg::ref_ptr<osg::Geometry> rectangle(const osg::Vec3& corner, const osg::Vec3& width,
                                       const osg::Vec3& height, const osg::Vec4& color);
@@ -39,6 +52,9 @@ osg::ref_ptr<osg::Geode> named(const std::string& name, osg::Drawable* drawable)
 osg::ref_ptr<osg::Geode> box(const std::string& name, const osg::Vec3& center,
                              const osg::Vec3& halfExtents,
                              const osg::Vec4& color = osg::Vec4(0.8f, 0.8f, 0.7f, 1.0f));
+
+/// A group without lighting, over the node if there is one.
+osg::ref_ptr<osg::Group> unlit(osg::Node* node = nullptr);
 
 /// A LabelScene over the node, without keys.
 osg::ref_ptr<osgLabels::LabelScene> labelled(osg::Node* node,

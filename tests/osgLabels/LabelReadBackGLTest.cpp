@@ -117,6 +117,9 @@ const Reader& reader()
 /// Boards, each with a text, whose middles lie above each other.
 struct Page
 {
+    static constexpr const char* Settings = "ink=#000000,plate=off,up=y,size=0.8,gap=100";
+
+    Page() = default;
     explicit Page(const std::vector<std::string>& lines) : texts(lines)
     {
         batch = new osgLabels::PrimitiveBatch;
@@ -125,15 +128,31 @@ struct Page
         {
             osgLabels::Primitive board;
             board.shape = osgLabels::Shape::Quad;
-            // A text takes at most 0.9 of its room.
-            board.size = osg::Vec3(float(texts[i].size() * CellWidth) / 1.7f + 4.0f,
-                                   float(reader().getEm()) / 1.6f, 0.0f);
+            board.size = halfSizeOf(texts[i]);
             board.position = osg::Vec3d(PageWidth / 2, middleOf(i), 0.0);
             board.name = texts[i];
             batch->add(board);
         }
         batch->build();
-        scene = labelled(batch, "ink=#000000,plate=off,up=y,size=0.8,gap=100");
+        scene = labelled(batch, Settings);
+    }
+
+    /// A text takes at most 0.9 of its room.
+    static osg::Vec3 halfSizeOf(const std::string& text)
+    {
+        return osg::Vec3(float(text.size() * CellWidth) / 1.7f + 4.0f,
+                         float(reader().getEm()) / 1.6f, 0.0f);
+    }
+
+    /// One more board, not in the batch.
+    void add(const std::string& text)
+    {
+        const osg::Vec3 half = halfSizeOf(text);
+        const osg::Vec3 corner =
+            osg::Vec3(PageWidth / 2, float(middleOf(texts.size())), 0.0f) - half;
+        scene->addChild(named(text, rectangle(corner, {2.0f * half.x(), 0, 0},
+                                              {0, 2.0f * half.y(), 0}, {1, 1, 1, 1})));
+        texts.push_back(text);
     }
 
     static int middleOf(std::size_t line) { return RowHeight / 2 + RowHeight * int(line); }
@@ -195,31 +214,27 @@ TEST_F(LabelReadBack, eachIdentifier)
 {
     const std::uint32_t identifiers[] = {1,           255,        256, 65535, 65536, (1u << 24) + 1,
                                          0x7ffffffeu, 0x7fffffffu};
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < 8; ++i)
-        texts.push_back(textOf(10, i));
-    const Page page(texts);
-    ASSERT_TRUE(page.draw());
-    // The batch has its own order.
-    std::vector<osgLabels::LabelTable::Codes> codes;
-    osgLabels::LabelTable& table = *page.scene->getResources()->table;
-    for (unsigned int i = 0; i < 8; ++i)
-        codes.push_back(table.getCodes(page.batch->getIdentifier(i)));
-    for (unsigned int i = 0; i < 8; ++i)
-        table.remove(i + 1);
-    for (unsigned int i = 0; i < 8; ++i)
+    Page page;
+    page.scene = labelled(nullptr, Page::Settings);
+    page.scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    for (const std::uint32_t identifier : identifiers)
     {
-        page.batch->setIdentifier(i, identifiers[i]);
-        EXPECT_TRUE(table.setCodes(identifiers[i], codes[i]));
+        if (const auto resources = page.scene->getResources())
+        {
+            osgLabels::NumberSpace& space = resources->shared->identifiers;
+            space.take(identifier - space.getEnd());
+        }
+        page.add(textOf(10, page.texts.size()));
+        ASSERT_TRUE(page.draw());
     }
     page.expectRead("identifiers");
-    for (unsigned int i = 0; i < 8; ++i)
+    for (std::size_t i = 0; i < page.texts.size(); ++i)
     {
-        const double y = page.batch->getPrimitive(i).position.y();
-        page.scene->pick(0.0, 2.0 * y / PageHeight - 1.0);
+        page.scene->pick(0.0, 2.0 * Page::middleOf(i) / PageHeight - 1.0);
         ASSERT_TRUE(page.draw());
         const auto picked = page.scene->takePicked();
         ASSERT_TRUE(picked);
         EXPECT_EQ(picked->identifier, identifiers[i]);
+        EXPECT_EQ(picked->text, page.texts[i]);
     }
 }

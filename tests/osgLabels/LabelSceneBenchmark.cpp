@@ -122,9 +122,9 @@ int main(int argc, char** argv)
     const int methods = arguments.read("--plain-only") ? 1 : int(NumMethods);
     if (!options.read(arguments))
         return 2;
-    FrameTimer timer(options.width, options.height);
+    FrameTimer timer(options);
     if (!timer.isValid())
-        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+        return 1;
     timer.getViewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
     Table table({"scene", "plain_ms", "off_ms", "on_ms", "on/off", "on/plain", "path_plain_ms",
                  "path_off_ms", "path_on_ms", "path_on/off", "path_on/plain", "load_s",
@@ -141,18 +141,15 @@ int main(int argc, char** argv)
         for (int round = -1; round < options.rounds; ++round)
             measure(timer, candidate, round, methods);
         std::vector<double> row;
-        for (const auto& times : candidate.fixed)
-            row.push_back(median(times));
+        addMedians(row, candidate.fixed);
         row.push_back(median(candidate.fixedRatio[OFF]));
         row.push_back(median(candidate.fixedRatio[PLAIN]));
-        for (const auto& times : candidate.path)
-            row.push_back(median(times));
+        addMedians(row, candidate.path);
         row.push_back(median(candidate.pathRatio[OFF]));
         row.push_back(median(candidate.pathRatio[PLAIN]));
         row.push_back(candidate.loadSeconds);
         row.push_back(candidate.firstFrame);
         table.add(candidate.name, row);
     }
-    table.print();
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }

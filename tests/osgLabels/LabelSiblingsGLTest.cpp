@@ -3,8 +3,6 @@
 // labels.
 #include "LabelPictures.h"
 
-#include <support/NotifyCapture.h>
-
 #include <osg/AlphaFunc>
 #include <osg/BlendFunc>
 #include <osg/Camera>
@@ -26,12 +24,8 @@ using On = osg::StateAttribute;
 namespace
 {
 
-class LabelSiblings : public testing::Test
+class LabelSiblings : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 const osg::Vec4 Red(0.8f, 0.2f, 0.2f, 1.0f), Green(0.2f, 0.8f, 0.2f, 1.0f),
@@ -42,8 +36,7 @@ using Build = std::function<void(osg::Group& root, osg::Group& labels)>;
 
 osg::ref_ptr<osg::Group> make(const Build& build, osg::Group* labels)
 {
-    osg::ref_ptr<osg::Group> root = new osg::Group;
-    root->getOrCreateStateSet()->setMode(GL_LIGHTING, On::OFF);
+    const osg::ref_ptr<osg::Group> root = unlit();
     build(*root, *labels);
     return root;
 }

@@ -4,12 +4,10 @@
 
 #include <osgLabels/LabelResources.h>
 
-#include <support/NotifyCapture.h>
+#include <support/ResidentMemory.h>
 
-#include <fstream>
 #include <string>
 #include <thread>
-#include <unistd.h>
 
 using namespace labelScene;
 using osgLabels::LabelScene;
@@ -17,28 +15,20 @@ using osgLabels::LabelScene;
 namespace
 {
 
-class LabelText : public testing::Test
+class LabelText : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 osg::ref_ptr<osg::Group> board(const std::string& name)
 {
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
-    group->addChild(named(
+    return unlit(named(
         name, rectangle({-1.2f, 0, -0.4f}, {2.4f, 0, 0}, {0, 0, 0.8f}, {0.9f, 0.9f, 0.8f, 1})));
-    return group;
 }
 
 /// Boards in rows, of 4 x `rows`, with different names.
 osg::ref_ptr<osg::Group> boards(int rows)
 {
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Group> group = unlit();
     const float height = 1.8f / float(rows);
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < 4; ++i)
@@ -54,15 +44,6 @@ osgLabels::LabelBuffers::Traffic trafficOf(const LabelScene& scene)
     const unsigned int context =
         viewer().getViewer().getCamera()->getGraphicsContext()->getState()->getContextID();
     return scene.getResources()->buffers.getTraffic(context);
-}
-
-/// Of this process, in KiB.
-long residentKiB()
-{
-    std::ifstream file("/proc/self/statm");
-    long pages = 0, resident = 0;
-    file >> pages >> resident;
-    return resident * (sysconf(_SC_PAGESIZE) / 1024);
 }
 
 /// Objects that live in the context.
@@ -183,7 +164,7 @@ TEST_F(LabelText, aThousandTogglesLeaveNothingBehind)
     toggle(64);
     // OSG deletes what is not used within a few frames.
     const GLObjects before = countObjects();
-    const long resident = residentKiB();
+    const double resident = support::residentMiB();
     toggle(1000);
     const GLObjects after = countObjects();
     EXPECT_GT(before.textures, 0u);
@@ -192,7 +173,7 @@ TEST_F(LabelText, aThousandTogglesLeaveNothingBehind)
     EXPECT_LE(after.framebuffers, before.framebuffers + 8);
     EXPECT_LE(after.programs, before.programs + 16);
     // 125 new settings with an atlas of a few hundred KiB each: a leak of them is 20 MiB and more.
-    EXPECT_LT(residentKiB() - resident, 8 * 1024);
+    EXPECT_LT(support::residentMiB() - resident, 8.0);
     scene->setShown(false);
     scene->setSettingsText("keys=off");
     EXPECT_TRUE(areEqual(render(*scene), bare, "labelText.hidden"));

@@ -3,14 +3,12 @@
 // origin shows, and the look of the model where there are none.
 #include "LabelPictures.h"
 
-#include <support/NotifyCapture.h>
+#include <support/WindowViews.h>
 
 #include <osg/Depth>
 #include <osg/Texture2D>
-#include <osgViewer/CompositeViewer>
 
 #include <algorithm>
-#include <mutex>
 
 using namespace labelScene;
 using osgLabels::LabelScene;
@@ -19,19 +17,14 @@ using support::CameraSpec;
 namespace
 {
 
-class LabelViews : public testing::Test
+class LabelViews : public PictureTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 /// A board, a box before it and a transparent pane, each with a name.
 osg::ref_ptr<osg::Group> plant()
 {
-    osg::ref_ptr<osg::Group> group = new osg::Group;
-    group->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Group> group = unlit();
     group->addChild(named("P-101 A/B", rectangle({-1.2f, 0.3f, -0.2f}, {2.4f, 0, 0}, {0, 0, 0.9f},
                                                  {0.8f, 0.7f, 0.5f, 1.0f})));
     group->addChild(box("VESSEL", {0.0f, 0.0f, -0.55f}, {0.9f, 0.2f, 0.25f}));
@@ -41,58 +34,6 @@ osg::ref_ptr<osg::Group> plant()
     pane->getOrCreateStateSet()->setRenderingHint(osg::StateSet::TRANSPARENT_BIN);
     group->addChild(pane);
     return group;
-}
-
-/// Reads the camera's viewport when it has been drawn.
-class Capture : public osg::Camera::DrawCallback
-{
-public:
-    void operator()(osg::RenderInfo& renderInfo) const override
-    {
-        const osg::Viewport& v = *renderInfo.getCurrentCamera()->getViewport();
-        std::lock_guard<std::mutex> lock(_mutex);
-        _image = new osg::Image;
-        _image->readPixels(int(v.x()), int(v.y()), int(v.width()), int(v.height()), GL_RGBA,
-                           GL_UNSIGNED_BYTE);
-        EXPECT_NO_GL_ERRORS();
-    }
-
-    Picture get() const
-    {
-        std::lock_guard<std::mutex> lock(_mutex);
-        return _image;
-    }
-
-private:
-    mutable std::mutex _mutex;
-    mutable Picture _image;
-};
-
-osg::ref_ptr<osg::GraphicsContext> makeWindow(int width, int height)
-{
-    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
-    traits->width = width;
-    traits->height = height;
-    traits->depth = 24;
-    traits->alpha = 8;
-    traits->doubleBuffer = true;
-    return osg::GraphicsContext::createGraphicsContext(traits);
-}
-
-/// Prepares a camera; returns what catches its picture.
-osg::ref_ptr<Capture> setUp(osg::Camera& camera, osg::GraphicsContext* window, int x, int y,
-                            int width, int height)
-{
-    camera.setGraphicsContext(window);
-    camera.setViewport(x, y, width, height);
-    camera.setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
-    camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setDrawBuffer(GL_BACK);
-    camera.setReadBuffer(GL_BACK);
-    osg::ref_ptr<Capture> capture = new Capture;
-    camera.setFinalDrawCallback(capture);
-    return capture;
 }
 
 CameraSpec fromLeft()
@@ -111,17 +52,9 @@ osg::ref_ptr<osg::Group> throughTexture(osg::Node* node, GLenum format, unsigned
     texture->setSourceType(format == GL_RGBA8 ? GL_UNSIGNED_BYTE : GL_FLOAT);
     texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
     texture->setFilter(osg::Texture::MAG_FILTER, osg::Texture::NEAREST);
-    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    camera->setRenderOrder(osg::Camera::PRE_RENDER);
-    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    camera->setRenderTargetImplementation(osg::Camera::FRAME_BUFFER_OBJECT);
-    camera->setViewport(0, 0, Width, Height);
-    camera->setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
-    camera->setViewMatrix(fromFront().view);
-    camera->setProjectionMatrix(fromFront().projection);
-    camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
+    const osg::ref_ptr<osg::Camera> camera =
+        support::makeTargetCamera(node, fromFront(), Width, Height);
     camera->attach(osg::Camera::COLOR_BUFFER, texture, 0, 0, false, samples, samples);
-    camera->addChild(node);
     const float aspect = float(Width) / Height;
     const auto screen =
         osg::createTexturedQuadGeometry({-aspect, 0, -1}, {2 * aspect, 0, 0}, {0, 0, 2});
@@ -149,64 +82,22 @@ Picture reference(LabelScene& scene, const CameraSpec& camera)
 TEST_F(LabelViews, severalViewsInOneWindowEachHaveTheirLabels)
 {
     const auto scene = labelled(plant());
-    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(2 * Width + 60, Height + 50);
-    ASSERT_TRUE(window);
-    osgViewer::CompositeViewer composite;
-    composite.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    osg::ref_ptr<Capture> captures[2];
-    for (int i = 0; i < 2; ++i)
-    {
-        osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
-        captures[i] =
-            setUp(*view->getCamera(), window, i ? Width + 37 : 13, i ? 41 : 7, Width, Height);
-        const CameraSpec spec = i ? fromLeft() : fromFront();
-        view->getCamera()->setViewMatrix(spec.view);
-        view->getCamera()->setProjectionMatrix(spec.projection);
-        view->setLightingMode(osg::View::NO_LIGHT);
-        view->setSceneData(scene);
-        composite.addView(view);
-    }
-    composite.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        composite.frame();
+    const support::WindowViews views(*scene, 2 * Width + 60, Height + 50,
+                                     {{fromFront(), 13, 7, Width, Height, "left"},
+                                      {fromLeft(), Width + 37, 41, Width, Height, "right"}});
     EXPECT_EQ(scene->getPlans().size(), 2u);
     const auto alone = labelled(plant());
-    EXPECT_TRUE(areAlike(captures[0]->get(), reference(*alone, fromFront()), "labelViews.first"));
-    EXPECT_TRUE(areAlike(captures[1]->get(), reference(*alone, fromLeft()), "labelViews.second"));
+    EXPECT_TRUE(areAlike(views.getPicture(0), reference(*alone, fromFront()), "labelViews.first"));
+    EXPECT_TRUE(areAlike(views.getPicture(1), reference(*alone, fromLeft()), "labelViews.second"));
 }
 
 TEST_F(LabelViews, slaveCamerasShowPartsOfOnePicture)
 {
     const auto scene = labelled(plant());
-    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(Width, Height);
-    ASSERT_TRUE(window);
-    osgViewer::Viewer slaves;
-    slaves.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    slaves.setLightingMode(osg::View::NO_LIGHT);
-    slaves.getCamera()->setViewMatrix(fromFront().view);
-    slaves.getCamera()->setProjectionMatrix(fromFront().projection);
-    osg::ref_ptr<Capture> captures[2];
-    const int half = Width / 2;
-    for (int i = 0; i < 2; ++i)
-    {
-        osg::ref_ptr<osg::Camera> slave = new osg::Camera;
-        captures[i] = setUp(*slave, window, half * i, 0, half, Height);
-        slaves.addSlave(slave);
-        slaves.getSlave(i)._projectionOffset =
-            osg::Matrix::scale(2, 1, 1) * osg::Matrix::translate(i ? -1.0 : 1.0, 0, 0);
-    }
-    slaves.setSceneData(scene);
-    slaves.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        slaves.frame();
+    const Picture joined = support::drawHalves(*scene, fromFront(), Width, Height);
     const auto alone = labelled(plant());
     const Picture whole = reference(*alone, fromFront());
-    ASSERT_TRUE(whole && captures[0]->get() && captures[1]->get());
-    const Picture joined = new osg::Image;
-    joined->allocateImage(Width, Height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    for (int y = 0; y < Height; ++y)
-        for (int x = 0; x < Width; ++x)
-            std::copy_n(captures[x / half]->get()->data(x % half, y), 4, joined->data(x, y));
+    ASSERT_TRUE(whole && joined);
     EXPECT_TRUE(areAlike(joined, whole, "labelViews.slaves"));
 }
 
@@ -241,8 +132,7 @@ TEST_F(LabelViews, samplesKeepTheLookAndNeverMixIdentifiers)
     OSGKITS_NEED_GL(smooth);
     smooth.getViewer().setLightingMode(osg::View::NO_LIGHT);
     // Many thin edges between identifiers that are far apart: a mean would be a third label.
-    osg::ref_ptr<osg::Group> bars = new osg::Group;
-    bars->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Group> bars = unlit();
     for (int i = 0; i < 24; ++i)
         bars->addChild(named(i % 3 ? "I" : "MMMMMMMMMM",
                              rectangle({-1.2f + 0.1f * float(i), 0.01f * float(i % 5), -0.9f},

@@ -5,6 +5,7 @@
 #include <refinery/Refinery.h>
 
 #include <support/HeadlessViewer.h>
+#include <support/ResidentMemory.h>
 
 #include <osg/ArgumentParser>
 #include <osgDB/ReadFile>
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 
 namespace
 {
@@ -45,14 +45,6 @@ template <class Work> void measure(Times& times, const Work& work)
     const std::chrono::duration<double, std::milli> clock =
         std::chrono::steady_clock::now() - start;
     times.clock = std::min(times.clock, clock.count());
-}
-
-double residentMebibytes()
-{
-    std::ifstream statm("/proc/self/statm");
-    double total = 0.0, resident = 0.0;
-    statm >> total >> resident;
-    return resident * 4096.0 / (1 << 20);
 }
 
 osg::ref_ptr<osgLabels::PrimitiveBatch> batchOf(unsigned int objects)
@@ -134,7 +126,7 @@ void pick(osg::Node& node, int rounds)
 
 void load(const std::string& file, int rounds)
 {
-    const double before = residentMebibytes();
+    const double before = support::residentMiB();
     osg::ref_ptr<osg::Node> node;
     Times times;
     double used = 0.0;
@@ -143,7 +135,7 @@ void load(const std::string& file, int rounds)
         node = nullptr;
         measure(times, [&] { node = osgDB::readRefNodeFile(file); });
         if (round == 0)
-            used = residentMebibytes() - before;
+            used = support::residentMiB() - before;
     }
     std::printf("%s: %s in %.0f ms (CPU %.0f), %.1f MiB\n", file.c_str(),
                 node ? "loaded" : "not loaded", times.clock, times.cpu, used);

@@ -170,6 +170,7 @@ TEST(PrimitiveBatchTest, trianglesAreThoseOfTheShapes)
 TEST(PrimitiveBatchTest, boundsHoldAllTriangles)
 {
     const auto batch = batchOf(crowd(500));
+    ASSERT_FALSE(batch->getRuns().empty());
     for (const auto& run : batch->getRuns())
     {
         const osg::BoundingBox inside = trianglesOf(*run).box, box = run->getBoundingBox();
@@ -243,6 +244,8 @@ TEST(PrimitiveBatchTest, farFromTheOriginObjectsKeepTheirPlaces)
     const osg::Vec3d far(1e7, -2e7, 3e6);
     const auto row = rowOfShapes(far);
     const auto batch = batchOf(row);
+    ASSERT_EQ(batch->getNumObjects(), row.size());
+    std::size_t compared = 0;
     for (unsigned int i = 0; i < batch->getNumObjects(); ++i)
     {
         const Primitive kept = batch->getPrimitive(i);
@@ -252,9 +255,11 @@ TEST(PrimitiveBatchTest, farFromTheOriginObjectsKeepTheirPlaces)
             if (primitive.name == kept.name)
             {
                 EXPECT_LT((primitive.position - kept.position).length(), 2e-6) << kept.name;
+                ++compared;
             }
         }
     }
+    EXPECT_EQ(compared, row.size());
     const osg::Vec3d along(0.0, 0.0, 5.0), at = row[2].position;
     const auto hits = hitsOf<osgUtil::LineSegmentIntersector>(*batch, at + along, at - along);
     ASSERT_FALSE(hits.empty());
@@ -389,11 +394,8 @@ TEST(PrimitiveBatchTest, deepCopiesChangeAlone)
     const osg::ref_ptr<PrimitiveBatch> deep =
         static_cast<PrimitiveBatch*>(batch->clone(osg::CopyOp::DEEP_COPY_ALL));
     deep->setColor(3, {1, 2, 3, 255});
-    deep->setIdentifier(3, 77);
     EXPECT_EQ(deep->getPrimitive(3).color, osg::Vec4ub(1, 2, 3, 255));
-    EXPECT_EQ(deep->getIdentifier(3), 77u);
     EXPECT_NE(batch->getPrimitive(3).color, osg::Vec4ub(1, 2, 3, 255));
-    EXPECT_EQ(batch->getIdentifier(3), 0u);
 }
 
 TEST(PrimitiveBatchTest, polygonsStayWithinHalfAPixelOfTheirCircle)

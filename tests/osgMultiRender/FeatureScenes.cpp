@@ -19,6 +19,14 @@ std::vector<FeatureScene> featureScenes()
     return scenes;
 }
 
+std::set<std::string> featureFamilies()
+{
+    std::set<std::string> names;
+    for (const FeatureScene& scene : featureScenes())
+        names.insert(scene.family);
+    return names;
+}
+
 osg::Matrixd featureView()
 {
     return osg::Matrixd::lookAt(osg::Vec3d(0.5, -6.0, 1.2), osg::Vec3d(0, 0, 0),

@@ -5,6 +5,7 @@
 #include <osg/Matrixd>
 
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct FeatureScene
 
 /// All of them, families together.
 std::vector<FeatureScene> featureScenes();
+
+/// The names of their families.
+std::set<std::string> featureFamilies();
 
 /// The camera of all feature scenes.
 osg::Matrixd featureView();

@@ -44,14 +44,6 @@ double litShare(const osg::Image& image)
     return double(count) / (image.s() * image.t());
 }
 
-std::set<std::string> families()
-{
-    std::set<std::string> names;
-    for (const FeatureScene& scene : featureScenes())
-        names.insert(scene.family);
-    return names;
-}
-
 class FeatureFamily : public testing::TestWithParam<std::string>
 {
 };
@@ -101,5 +93,5 @@ TEST_P(FeatureFamily, showsSomethingTheSameEachTimeAndNoTwoAreAlike)
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(FixedFunction, FeatureFamily, testing::ValuesIn(families()),
+INSTANTIATE_TEST_SUITE_P(FixedFunction, FeatureFamily, testing::ValuesIn(featureFamilies()),
                          [](const auto& family) { return family.param; });

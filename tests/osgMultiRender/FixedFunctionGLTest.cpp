@@ -10,14 +10,7 @@
 #include <support/InventorModels.h>
 #include <support/NotifyCapture.h>
 
-#include <osg/Geometry>
-#include <osg/NodeVisitor>
-#include <osgDB/ReadFile>
-
-#include <algorithm>
-#include <cctype>
 #include <cstdlib>
-#include <set>
 
 using osgShadowVolume::LitScene;
 
@@ -76,46 +69,6 @@ void expectFixedFunctionPicture(osg::Node* node, const support::CameraSpec& came
     EXPECT_TRUE(Oracle(actual, expected, "fixedFunction." + name));
 }
 
-/// Makes colors that are none black. Where a model has fewer materials than its binding asks for
-/// (simple/indexedTriangleMesh.iv), osgdb_iv fills the array from memory that nobody wrote.
-class TameColors : public osg::NodeVisitor
-{
-public:
-    TameColors() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Geometry& geometry) override
-    {
-        auto* colors = dynamic_cast<osg::Vec4Array*>(geometry.getColorArray());
-        for (unsigned int i = 0; colors && i < colors->size(); ++i)
-        {
-            for (unsigned int c = 0; c < 4; ++c)
-            {
-                float& value = (*colors)[i][c];
-                if (!(value >= 0.0f && value <= 1.0f))
-                    value = 0.0f;
-            }
-        }
-    }
-};
-
-std::set<std::string> families()
-{
-    std::set<std::string> names;
-    for (const FeatureScene& scene : featureScenes())
-        names.insert(scene.family);
-    return names;
-}
-
-/// "chess/king.iv" as "chess_king", which GoogleTest takes for a name.
-std::string caseName(const std::string& path)
-{
-    const std::string folder = support::inventorModel("");
-    std::string name = path.substr(folder.size(), path.size() - folder.size() - 3);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
-    return name;
-}
-
 class FeatureFamily : public testing::TestWithParam<std::string>
 {
 };
@@ -144,13 +97,11 @@ TEST_P(FeatureFamily, hasThePictureOfTheFixedFunction)
 TEST_P(InventorModel, hasThePictureOfTheFixedFunction)
 {
     OSGKITS_NEED_GL(theViewer());
-    const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(GetParam());
+    const osg::ref_ptr<osg::Node> model = support::readInventorModel(GetParam());
     ASSERT_TRUE(model.valid()) << GetParam() << " cannot be read";
     support::NotifyCapture notify;
-    TameColors tame;
-    model->accept(tame);
     const auto camera = support::CameraSpec::overview(*model, double(Width) / Height);
-    expectFixedFunctionPicture(model, camera, caseName(GetParam()));
+    expectFixedFunctionPicture(model, camera, support::inventorCaseName(GetParam()));
 }
 
 TEST(InventorModels, areInstalled)
@@ -158,8 +109,8 @@ TEST(InventorModels, areInstalled)
     EXPECT_GE(support::inventorModels().size(), 90u) << "install Debian's inventor-data";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, FeatureFamily, testing::ValuesIn(families()),
+INSTANTIATE_TEST_SUITE_P(Scenes, FeatureFamily, testing::ValuesIn(featureFamilies()),
                          [](const auto& family) { return family.param; });
 INSTANTIATE_TEST_SUITE_P(Models, InventorModel, testing::ValuesIn(support::inventorModels()),
-                         [](const auto& model) { return caseName(model.param); });
+                         [](const auto& model) { return support::inventorCaseName(model.param); });
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(InventorModel);

@@ -186,6 +186,7 @@ TEST_F(LabelsPlugin, wrongSettingsAreNamedWithThoseThatAreKnown)
 TEST_F(LabelsPlugin, osgconvListsTheOptions)
 {
     const support::ProcessResult result = run({"osgconv", "--format", "labels"});
+    ASSERT_FALSE(osgLabels::labelOptions().empty());
     for (const osgLabels::LabelOption& option : osgLabels::labelOptions())
         EXPECT_NE(
             (result.output + result.errors).find("labels." + option.name + "=" + option.values),
@@ -196,6 +197,7 @@ TEST_F(LabelsPlugin, osgconvListsTheOptions)
 TEST_F(LabelsPlugin, osgviewersHelpHasTheKeys)
 {
     const support::ProcessResult result = run({"osgviewer", "-e", "labels", "--help-keys"});
+    ASSERT_FALSE(osgLabels::labelKeys().empty());
     for (const osgLabels::LabelKey& key : osgLabels::labelKeys())
         EXPECT_NE(result.output.find(key.help), std::string::npos) << key.key << result.output;
 }

@@ -21,7 +21,6 @@
 #include <osgDB/ReadFile>
 
 #include <cmath>
-#include <cstdio>
 
 using namespace osgShadowVolume;
 
@@ -84,9 +83,9 @@ int main(int argc, char** argv)
     arguments.read("--drawables", drawables);
     if (!options.read(arguments))
         return 2;
-    FrameTimer timer(options.width, options.height);
+    FrameTimer timer(options);
     if (!timer.isValid())
-        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+        return 1;
     timer.getViewer().getViewer().setLightingMode(osg::View::HEADLIGHT);
     std::vector<Candidate> candidates;
     for (const char* name : {"chess/king.iv", "engine.iv", "buildings/temple.iv"})
@@ -115,14 +114,11 @@ int main(int argc, char** argv)
     for (const Candidate& candidate : candidates)
     {
         std::vector<double> row;
-        for (const auto& times : candidate.frame)
-            row.push_back(median(times));
+        addMedians(row, candidate.frame);
         row.push_back(median(candidate.ratio[LIT]));
         row.push_back(median(candidate.ratio[SHADOWED]));
-        for (const auto& times : candidate.cull)
-            row.push_back(median(times));
+        addMedians(row, candidate.cull);
         table.add(candidate.name, row);
     }
-    table.print();
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }

@@ -109,6 +109,7 @@ TEST(LightReach, farFromTheOriginNothingChanges)
 {
     RandomLights random(3);
     const glm::dvec3 low(1e7), high(1e7 + 40.0);
+    int lit = 0;
     for (int i = 0; i < 20000; ++i)
     {
         const EyeLight light = random.light(low, high);
@@ -120,8 +121,10 @@ TEST(LightReach, farFromTheOriginNothingChanges)
         if (share(light, point) > threshold * 1.0001)
         {
             ASSERT_TRUE(reaches(light, reachOf(light, threshold), center, radius)) << i;
+            ++lit;
         }
     }
+    EXPECT_GT(lit, 1000);
 }
 
 TEST(LightReach, withoutAttenuationOrWithoutAThresholdItIsEndless)
@@ -195,6 +198,7 @@ TEST(LightReach, aConeIsTestedAgainstTheWholeSphere)
 TEST(LightThreshold, whatLiesBeyondItsReachStaysWithinTheBudgetAtThePoints)
 {
     RandomLights random(4);
+    int leaving = 0;
     for (int round = 0; round < 50; ++round)
     {
         const glm::dvec3 low(-50.0), high(50.0);
@@ -214,8 +218,10 @@ TEST(LightThreshold, whatLiesBeyondItsReachStaysWithinTheBudgetAtThePoints)
                 if (!reaches(light, reachOf(light, threshold), point, 0.0))
                     left += share(light, point);
             ASSERT_LE(left, budget * (1.0 + 1e-9)) << "round " << round;
+            leaving += left > 0.0;
         }
     }
+    EXPECT_GT(leaving, 100) << "or nothing is left out";
 }
 
 TEST(LightThreshold, largeNumbersOfLightsAreSampled)

@@ -19,7 +19,6 @@
 #include <osg/LightSource>
 
 #include <cmath>
-#include <cstdio>
 #include <random>
 
 namespace
@@ -73,9 +72,9 @@ int main(int argc, char** argv)
     arguments.read("--most", most);
     if (!options.read(arguments))
         return 2;
-    FrameTimer timer(options.width, options.height);
+    FrameTimer timer(options);
     if (!timer.isValid())
-        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+        return 1;
 
     std::vector<unsigned int> numbers = {1, 8, 9, 32, 33, 64, 256, 1024, 4097, 16384, 65536};
     while (numbers.size() > 1 && numbers.back() > static_cast<unsigned int>(most))
@@ -110,6 +109,5 @@ int main(int argc, char** argv)
                   {median(resting[i]), median(moving[i]), counts["lights.drawn"],
                    counts["lights.dropped"], counts["textureBytes"]});
     }
-    table.print();
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }

@@ -3,6 +3,7 @@
 
 #include <support/NotifyCapture.h>
 #include <support/TemporaryFolder.h>
+#include <support/WindowViews.h>
 
 #include <osg/Billboard>
 #include <osg/Camera>
@@ -16,7 +17,6 @@
 #include <osg/Switch>
 #include <osg/Texture2D>
 #include <osgDB/WriteFile>
-#include <osgViewer/CompositeViewer>
 
 #include <atomic>
 #include <chrono>
@@ -361,28 +361,10 @@ TEST_F(LitSceneNodes, severalViewsEachHaveAPlan)
 {
     osg::ref_ptr<osgShadowVolume::LitScene> kit = lit::litScene(lit::Lighting::PIXEL);
     kit->addChild(ball({0, 0, 0}));
-    osgViewer::CompositeViewer composite;
-    composite.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
-    traits->width = 128;
-    traits->height = 64;
-    traits->doubleBuffer = true;
-    osg::ref_ptr<osg::GraphicsContext> context =
-        osg::GraphicsContext::createGraphicsContext(traits);
-    ASSERT_TRUE(context.valid());
-    for (int i = 0; i < 2; ++i)
-    {
-        osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
-        view->getCamera()->setName(i ? "right" : "left");
-        view->getCamera()->setGraphicsContext(context);
-        view->getCamera()->setViewport(i * 64, 0, 64, 64);
-        view->getCamera()->setViewMatrixAsLookAt({0, -8, 0}, {0, 0, 0}, {0, 0, 1});
-        view->setSceneData(kit);
-        composite.addView(view);
-    }
-    composite.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        composite.frame();
+    const auto camera =
+        support::CameraSpec::perspective({0, -8, 0}, {0, 0, 0}, {0, 0, 1}, 30.0, 1.0, 1.0, 20.0);
+    const support::WindowViews views(
+        *kit, 128, 64, {{camera, 0, 0, 64, 64, "left"}, {camera, 64, 0, 64, 64, "right"}});
     ASSERT_EQ(kit->getPlans().size(), 2u);
     EXPECT_EQ(kit->getPlans()[0].view, "left");
     EXPECT_EQ(kit->getPlans()[1].view, "right");

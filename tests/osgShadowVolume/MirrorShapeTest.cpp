@@ -39,7 +39,8 @@ const glm::dmat4 parallel = glm::ortho(-4.0, 4.0, -4.0, 4.0, 1.0, 100.0);
 
 TEST(MirrorShapeTest, flatTrianglesHaveARectangle)
 {
-    for (const glm::dvec3& corner : shapeOf(square(-3.0)).corners)
+    const MirrorShape shape = shapeOf(square(-3.0));
+    for (const glm::dvec3& corner : shape.corners)
     {
         EXPECT_NEAR(std::abs(corner.x), 1.0, 1e-12);
         EXPECT_NEAR(std::abs(corner.y), 1.0, 1e-12);

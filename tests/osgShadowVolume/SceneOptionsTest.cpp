@@ -121,6 +121,7 @@ TEST(SceneOptionsTest, wrongTextIsNamedWithWhatMayBeSaid)
 
 TEST(SceneOptionsTest, noOptionTakesAnythingElse)
 {
+    ASSERT_FALSE(sceneOptions().empty());
     for (const SceneOption& option : sceneOptions())
         for (const char* text : {"", " ", "x", "1x", "0x10", "nan", "inf", "1e999", "-1", "1 2",
                                  "+1", "1,5", "Volumes", "all,"})

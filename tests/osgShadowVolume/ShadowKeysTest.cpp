@@ -240,6 +240,7 @@ TEST(ShadowKeysListTest, keysAreNoneOfOsgviewersOwn)
 TEST(ShadowKeysListTest, keysAreInTheViewersHelp)
 {
     const auto& bindings = osg::ApplicationUsage::instance()->getKeyboardMouseBindings();
+    ASSERT_FALSE(shadowKeys().empty());
     for (const ShadowKey& key : shadowKeys())
     {
         const auto found = bindings.find(std::string(1, key.key));
@@ -250,6 +251,7 @@ TEST(ShadowKeysListTest, keysAreInTheViewersHelp)
 
 TEST(ShadowKeysListTest, valuesOfKeysAreValuesOfTheirSettings)
 {
+    ASSERT_FALSE(shadowKeys().empty());
     for (const ShadowKey& key : shadowKeys())
     {
         if (!key.setting)

@@ -19,7 +19,6 @@
 #include <osgDB/WriteFile>
 
 #include <cmath>
-#include <cstdio>
 
 using osgShadowVolume::ShadowedScene;
 
@@ -69,9 +68,9 @@ int main(int argc, char** argv)
     arguments.read("--picture", picture);
     if (!options.read(arguments))
         return 2;
-    FrameTimer timer(options.width, options.height);
+    FrameTimer timer(options);
     if (!timer.isValid())
-        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+        return 1;
 
     PlantSettings settings;
     settings.objects = unsigned(objects);
@@ -130,10 +129,9 @@ int main(int argc, char** argv)
                    median(candidate.anew), median(candidate.factor), counts["shadows.lights"],
                    counts["shadows.drawCalls"]});
     }
-    table.print();
     if (!picture.empty())
         osgDB::writeImageFile(*timer.getViewer().render(candidates.back().scene, camera,
                                                         options.width, options.height),
                               picture);
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }

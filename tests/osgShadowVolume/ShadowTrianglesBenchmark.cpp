@@ -20,7 +20,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 using namespace osgShadowVolume;
 
@@ -179,9 +178,9 @@ int main(int argc, char** argv)
     arguments.read("--most", most);
     if (!options.read(arguments))
         return 2;
-    FrameTimer timer(options.width, options.height);
+    FrameTimer timer(options);
     if (!timer.isValid())
-        return std::fprintf(stderr, "%s\n", timer.getViewer().getError().c_str()), 1;
+        return 1;
     std::vector<Candidate> candidates;
     for (int triangles = 1000; triangles <= most; triangles *= 10)
         candidates.push_back(makeCandidate(triangles));
@@ -201,6 +200,5 @@ int main(int argc, char** argv)
             row.push_back(bytes);
         table.add(std::to_string(candidate.ball->getPrimitiveSet(0)->getNumIndices() / 3), row);
     }
-    table.print();
-    return table.write(options.csv) ? 0 : 1;
+    return table.report(options.csv);
 }

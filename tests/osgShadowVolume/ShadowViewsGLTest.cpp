@@ -2,13 +2,10 @@
 #include "VolumePictures.h"
 
 #include <support/NotifyCapture.h>
-
-#include <osg/Texture2D>
-#include <osgViewer/CompositeViewer>
+#include <support/WindowViews.h>
 
 #include <algorithm>
 #include <array>
-#include <mutex>
 
 using namespace volumeScene;
 using osgShadowVolume::ShadowedScene;
@@ -28,31 +25,6 @@ protected:
     support::NotifyCapture _notify;
 };
 
-/// Reads the camera's viewport when it has been drawn.
-class Capture : public osg::Camera::DrawCallback
-{
-public:
-    void operator()(osg::RenderInfo& renderInfo) const override
-    {
-        const osg::Viewport& v = *renderInfo.getCurrentCamera()->getViewport();
-        std::lock_guard<std::mutex> lock(_mutex);
-        _image = new osg::Image;
-        _image->readPixels(int(v.x()), int(v.y()), int(v.width()), int(v.height()), GL_RGBA,
-                           GL_UNSIGNED_BYTE);
-        EXPECT_NO_GL_ERRORS();
-    }
-
-    Picture get() const
-    {
-        std::lock_guard<std::mutex> lock(_mutex);
-        return _image;
-    }
-
-private:
-    mutable std::mutex _mutex;
-    mutable Picture _image;
-};
-
 struct Rectangle
 {
     int x, y, width, height;
@@ -62,33 +34,6 @@ CameraSpec from(const osg::Vec3d& eye, const Rectangle& viewport)
 {
     return CameraSpec::perspective(eye, {0, 0, 0.5}, {0, 0, 1}, 40.0,
                                    double(viewport.width) / viewport.height, 1.0, 40.0);
-}
-
-osg::ref_ptr<osg::GraphicsContext> makeWindow(int width, int height)
-{
-    osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
-    traits->width = width;
-    traits->height = height;
-    traits->depth = 24;
-    traits->alpha = 8;
-    traits->doubleBuffer = true;
-    return osg::GraphicsContext::createGraphicsContext(traits);
-}
-
-/// Prepares a camera; returns what catches its picture.
-osg::ref_ptr<Capture> setUp(osg::Camera& camera, osg::GraphicsContext* window,
-                            const Rectangle& viewport)
-{
-    camera.setGraphicsContext(window);
-    camera.setViewport(viewport.x, viewport.y, viewport.width, viewport.height);
-    camera.setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
-    camera.setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    camera.setCullingMode(camera.getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
-    camera.setDrawBuffer(GL_BACK);
-    camera.setReadBuffer(GL_BACK);
-    osg::ref_ptr<Capture> capture = new Capture;
-    camera.setFinalDrawCallback(capture);
-    return capture;
 }
 
 /// A viewport elsewhere rounds coordinates otherwise: pixels whose centre lies within 1/256 pixel
@@ -108,33 +53,17 @@ const osg::Vec3d LeftEye(0, -9, 7), RightEye(5, -6, 6);
 TEST_F(ShadowViews, twoViewsInOneWindowEachHaveTheirOwnShadows)
 {
     const auto scene = twoBoxes();
-    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(260, 250);
-    ASSERT_TRUE(window);
-    osgViewer::CompositeViewer composite;
-    composite.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    osg::ref_ptr<Capture> captures[2];
-    for (int i = 0; i < 2; ++i)
-    {
-        osg::ref_ptr<osgViewer::View> view = new osgViewer::View;
-        const Rectangle& viewport = i ? RightView : LeftView;
-        const CameraSpec spec = from(i ? RightEye : LeftEye, viewport);
-        captures[i] = setUp(*view->getCamera(), window, viewport);
-        view->getCamera()->setViewMatrix(spec.view);
-        view->getCamera()->setProjectionMatrix(spec.projection);
-        view->setLightingMode(osg::View::NO_LIGHT);
-        view->setSceneData(scene);
-        composite.addView(view);
-    }
-    composite.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        composite.frame();
+    const auto view = [](const osg::Vec3d& eye, const Rectangle& at)
+    { return support::WindowView{from(eye, at), at.x, at.y, at.width, at.height, {}}; };
+    const support::WindowViews views(*scene, 260, 250,
+                                     {view(LeftEye, LeftView), view(RightEye, RightView)});
     EXPECT_EQ(scene->getPlans().size(), 2u);
     const auto alone = twoBoxes();
     const Picture left = render(*alone, from(LeftEye, LeftView), LeftView.width, LeftView.height);
     const Picture right =
         render(*alone, from(RightEye, RightView), RightView.width, RightView.height);
-    EXPECT_TRUE(areAlike(captures[0]->get(), left, "views.left"));
-    EXPECT_TRUE(areAlike(captures[1]->get(), right, "views.right"));
+    EXPECT_TRUE(areAlike(views.getPicture(0), left, "views.left"));
+    EXPECT_TRUE(areAlike(views.getPicture(1), right, "views.right"));
     ASSERT_TRUE(left && right);
     EXPECT_GT(darkShare(*left), 0.005) << "without a shadow nothing is shown";
     EXPECT_GT(darkShare(*right), 0.005);
@@ -146,34 +75,10 @@ TEST_F(ShadowViews, slaveCamerasShowPartsOfOnePicture)
     const auto scene = twoBoxes();
     const Rectangle all{0, 0, 240, 120};
     const CameraSpec spec = from(LeftEye, all);
-    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(240, 120);
-    ASSERT_TRUE(window);
-    osgViewer::Viewer viewer;
-    viewer.setThreadingModel(osgViewer::ViewerBase::SingleThreaded);
-    viewer.setLightingMode(osg::View::NO_LIGHT);
-    viewer.getCamera()->setViewMatrix(spec.view);
-    viewer.getCamera()->setProjectionMatrix(spec.projection);
-    osg::ref_ptr<Capture> captures[2];
-    for (int i = 0; i < 2; ++i)
-    {
-        osg::ref_ptr<osg::Camera> slave = new osg::Camera;
-        captures[i] = setUp(*slave, window, {120 * i, 0, 120, 120});
-        viewer.addSlave(slave);
-        viewer.getSlave(i)._projectionOffset =
-            osg::Matrix::scale(2, 1, 1) * osg::Matrix::translate(i ? -1.0 : 1.0, 0, 0);
-    }
-    viewer.setSceneData(scene);
-    viewer.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        viewer.frame();
+    const Picture joined = support::drawHalves(*scene, spec, all.width, all.height);
     const auto alone = twoBoxes();
     const Picture whole = render(*alone, spec, all.width, all.height);
-    ASSERT_TRUE(whole && captures[0]->get() && captures[1]->get());
-    const Picture joined = new osg::Image;
-    joined->allocateImage(all.width, all.height, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    for (int y = 0; y < all.height; ++y)
-        for (int x = 0; x < all.width; ++x)
-            std::copy_n(captures[x / 120]->get()->data(x % 120, y), 4, joined->data(x, y));
+    ASSERT_TRUE(whole && joined);
     EXPECT_TRUE(areAlike(joined, whole, "views.slaves"));
 }
 
@@ -184,20 +89,12 @@ namespace
 osg::ref_ptr<osg::Group> toTexture(ShadowedScene& scene, osg::Camera::RenderTargetImplementation to,
                                    int size, unsigned int samples, Picture& image)
 {
-    osg::ref_ptr<osg::Camera> camera = new osg::Camera;
-    camera->setRenderOrder(osg::Camera::PRE_RENDER);
-    camera->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    const osg::ref_ptr<osg::Camera> camera =
+        support::makeTargetCamera(&scene, fromFront(), size, size);
     camera->setRenderTargetImplementation(to, to);
-    camera->setViewport(0, 0, size, size);
-    camera->setClearColor(osg::Vec4(0.2f, 0.2f, 0.4f, 1.0f));
-    camera->setViewMatrix(fromFront().view);
-    camera->setProjectionMatrix(fromFront().projection);
-    camera->setComputeNearFarMode(osg::Camera::DO_NOT_COMPUTE_NEAR_FAR);
-    camera->setCullingMode(camera->getCullingMode() & ~osg::CullSettings::SMALL_FEATURE_CULLING);
     image = new osg::Image;
     image->allocateImage(size, size, 1, GL_RGBA, GL_UNSIGNED_BYTE);
     camera->attach(osg::Camera::COLOR_BUFFER, image, samples, samples);
-    camera->addChild(&scene);
     osg::ref_ptr<osg::Group> root = new osg::Group;
     root->addChild(camera);
     return root;

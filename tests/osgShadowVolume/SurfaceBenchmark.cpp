@@ -103,11 +103,8 @@ int main(int argc, char** argv)
     support::HeadlessViewer viewer(settings);
     if (!viewer.isValid())
         return std::fprintf(stderr, "%s\n", viewer.getError().c_str()), 1;
-    std::FILE* csv = options.csv.empty() ? nullptr : std::fopen(options.csv.c_str(), "w");
-    if (csv)
-        std::fprintf(csv,
-                     "model,fixed_ms,vertex_ms,vertex_ratio,pixel_ms,pixel_ratio,drawables,states,"
-                     "variants,vertex_compile_ms,pixel_compile_ms\n");
+    Table table({"model", "fixed_ms", "vertex_ms", "vertex_ratio", "pixel_ms", "pixel_ratio",
+                 "drawables", "states", "variants", "vertex_compile_ms", "pixel_compile_ms"});
     std::vector<double> vertexRatios, pixelRatios;
     double sum[NumMethods] = {};
     for (const std::string& name : models)
@@ -117,33 +114,22 @@ int main(int argc, char** argv)
             continue;
         Result r = measure(viewer, *model, options);
         auto& counts = r.plans[Vertex].counts;
-        const double vertexCompile = counts["programs.compileMilliseconds"];
-        const double pixelCompile = r.plans[Pixel].counts["programs.compileMilliseconds"];
-        std::printf(
-            "%-24s fixed %7.2f ms  vertex %7.2f (x%.3f)  pixel %7.2f (x%.3f)  drawables %4.0f "
-            "states %4.0f variants %2.0f\n",
-            osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed], r.milliseconds[Vertex],
-            r.ratio[Vertex], r.milliseconds[Pixel], r.ratio[Pixel], counts["drawCalls"],
-            counts["states"], counts["variants"]);
-        if (csv)
-            std::fprintf(csv, "%s,%.4f,%.4f,%.4f,%.4f,%.4f,%.0f,%.0f,%.0f,%.2f,%.2f\n",
-                         osgDB::getSimpleFileName(name).c_str(), r.milliseconds[Fixed],
-                         r.milliseconds[Vertex], r.ratio[Vertex], r.milliseconds[Pixel],
-                         r.ratio[Pixel], counts["drawCalls"], counts["states"], counts["variants"],
-                         vertexCompile, pixelCompile);
+        table.add(osgDB::getSimpleFileName(name),
+                  {r.milliseconds[Fixed], r.milliseconds[Vertex], r.ratio[Vertex],
+                   r.milliseconds[Pixel], r.ratio[Pixel], counts["drawCalls"], counts["states"],
+                   counts["variants"], counts["programs.compileMilliseconds"],
+                   r.plans[Pixel].counts["programs.compileMilliseconds"]});
         vertexRatios.push_back(r.ratio[Vertex]);
         pixelRatios.push_back(r.ratio[Pixel]);
         for (int method = 0; method < NumMethods; ++method)
             sum[method] += r.milliseconds[method];
-        std::fflush(stdout);
     }
+    const int status = table.report(options.csv);
     std::printf(
         "%zu models: vertex median x%.3f, worst x%.3f, of sums x%.3f; pixel median x%.3f, of sums "
         "x%.3f\n",
         vertexRatios.size(), median(vertexRatios),
         vertexRatios.empty() ? 0.0 : *std::max_element(vertexRatios.begin(), vertexRatios.end()),
         sum[Vertex] / sum[Fixed], median(pixelRatios), sum[Pixel] / sum[Fixed]);
-    if (csv)
-        std::fclose(csv);
-    return 0;
+    return status;
 }

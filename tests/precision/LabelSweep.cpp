@@ -2,10 +2,9 @@
 #include "LabelMethods.h"
 
 #include <precision/Sweep.h>
-#include <support/HeadlessViewer.h>
+#include <precision/SweepViewer.h>
 
 #include <osg/Camera>
-#include <osg/GraphicsContext>
 
 #include <algorithm>
 #include <cmath>
@@ -54,8 +53,6 @@ class Workshop
 public:
     explicit Workshop(CoverageView view) : _view(std::move(view))
     {
-        if (!viewer.isValid())
-            throw std::runtime_error(viewer.getError());
         std::string error;
         const auto face = osgLabels::FontFace::openOrDefault("", error);
         if (!face)
@@ -71,31 +68,16 @@ public:
     Outcome draw(const LabelMethod& method, double pixelsPerEm)
     {
         osg::Camera* const camera = getCamera(method, pixelsPerEm);
-        osg::Image& picture = *camera->getBufferAttachmentMap()[osg::Camera::COLOR_BUFFER]._image;
-        // So that nothing drawn is a failure, not the last round's picture.
-        std::fill_n(reinterpret_cast<float*>(picture.data()), picture.getTotalSizeInBytes() / 4,
-                    std::nanf(""));
+        osg::Image& picture = viewer.clear(*camera);
         const double start = getCpuSeconds();
-        viewer.render(camera, {}, 1, 1);
+        viewer.draw(*camera);
         Outcome outcome;
         outcome.seconds = (getCpuSeconds() - start) / Copies;
         outcome.number = getRmsPercent(picture, *getTruth(pixelsPerEm));
         return outcome;
     }
 
-    std::string getRenderer()
-    {
-        osgViewer::Viewer::Contexts contexts;
-        viewer.getViewer().getContexts(contexts);
-        if (contexts.empty() || !contexts.front()->makeCurrent())
-            return "unknown renderer";
-        const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        const std::string renderer = name ? name : "unknown renderer";
-        contexts.front()->releaseContext();
-        return renderer;
-    }
-
-    support::HeadlessViewer viewer{support::HeadlessSettings{}};
+    precision::SweepViewer viewer;
     std::vector<LabelMethod> methods;
 
 private:
@@ -145,7 +127,7 @@ precision::Sweep makeSweep(const CoverageView& view)
     sweep.title = "Letters of DejaVu Sans Mono seen " + view.name.substr(view.name.rfind('-') + 1) +
                   ", 2 to 200 pixels an em, 256x256, CPU time";
     sweep.errorName = "RMS error of coverage in percent, against 256 samples of the outlines";
-    sweep.renderer = shop->getRenderer();
+    sweep.renderer = shop->viewer.getRenderer();
     sweep.getError = [](const Outcome& outcome, const Outcome&) { return outcome.number; };
     for (const LabelMethod& method : shop->methods)
         sweep.methods.push_back({method.name, "px an em", Sizes,

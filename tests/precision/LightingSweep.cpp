@@ -2,19 +2,13 @@
 #include <precision/ImageError.h>
 #include <precision/SpotScene.h>
 #include <precision/Sweep.h>
-
-#include <support/HeadlessViewer.h>
+#include <precision/SweepViewer.h>
 
 #include <osg/Camera>
-#include <osg/GraphicsContext>
-#include <osgViewer/Viewer>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <map>
 #include <memory>
-#include <stdexcept>
 #include <tuple>
 
 namespace
@@ -56,26 +50,14 @@ osg::ref_ptr<osg::Camera> makeCamera(osg::Node* scene, int factor)
 class Workshop
 {
 public:
-    Workshop()
-    {
-        if (!viewer.isValid())
-        {
-            throw std::runtime_error(viewer.getError());
-        }
-        viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
-    }
-
     /// Draws and averages; only the drawing is timed, with the transfer of the picture, since on a
     /// GPU the averaging is next to nothing.
     Outcome draw(Lighting lighting, int floorCells, int factor)
     {
         osg::Camera* const camera = getCamera(lighting, floorCells, factor);
-        osg::Image& picture = *camera->getBufferAttachmentMap()[osg::Camera::COLOR_BUFFER]._image;
-        // So that nothing drawn is a failure, not the last round's picture.
-        std::fill_n(reinterpret_cast<float*>(picture.data()), picture.getTotalSizeInBytes() / 4,
-                    std::nanf(""));
+        osg::Image& picture = viewer.clear(*camera);
         const auto start = std::chrono::steady_clock::now();
-        viewer.render(camera, {}, 1, 1);
+        viewer.draw(*camera);
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         Outcome outcome;
         outcome.picture = precision::boxFilter(picture, factor);
@@ -83,7 +65,7 @@ public:
         return outcome;
     }
 
-    support::HeadlessViewer viewer{support::HeadlessSettings{}};
+    precision::SweepViewer viewer;
 
 private:
     osg::Camera* getCamera(Lighting lighting, int floorCells, int factor)
@@ -100,20 +82,6 @@ private:
 
     std::map<std::tuple<Lighting, int, int>, osg::ref_ptr<osg::Camera>> _cameras;
 };
-
-std::string getRenderer(support::HeadlessViewer& viewer)
-{
-    osgViewer::Viewer::Contexts contexts;
-    viewer.getViewer().getContexts(contexts);
-    if (contexts.empty() || !contexts.front()->makeCurrent())
-    {
-        return "unknown renderer";
-    }
-    const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const std::string renderer = name ? name : "unknown renderer";
-    contexts.front()->releaseContext();
-    return renderer;
-}
 
 precision::Method makeGouraud(const std::shared_ptr<Workshop>& shop, const std::string& name,
                               std::vector<double> cells)
@@ -139,7 +107,7 @@ precision::Sweep makeLightingSweep()
     sweep.title = "Spot light on a floor and a sphere, 256x256";
     sweep.errorName =
         "RMS error of the pixels, 1 is white, against per-pixel lighting with 16x16 samples";
-    sweep.renderer = getRenderer(shop->viewer);
+    sweep.renderer = shop->viewer.getRenderer();
     // A shop of its own: its picture takes 256 MiB, which the sweep needs no more.
     sweep.makeReference = []
     { return Workshop().draw(Lighting::PerPixel, CoarseFloor, ReferenceFactor); };

@@ -21,11 +21,14 @@ support::HeadlessSettings settingsOf(int width, int height)
 
 } // namespace
 
-FrameTimer::FrameTimer(int width, int height)
-    : _width(width), _height(height), _viewer(settingsOf(width, height))
+FrameTimer::FrameTimer(const BenchmarkOptions& options)
+    : _width(options.width), _height(options.height), _viewer(settingsOf(_width, _height))
 {
     if (!isValid())
+    {
+        std::fprintf(stderr, "%s\n", _viewer.getError().c_str());
         return;
+    }
     _viewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
     osg::Camera* const camera = _viewer.getViewer().getCamera();
     if (!camera->getStats())
@@ -80,10 +83,17 @@ void Table::print() const
     }
 }
 
+int Table::report(const std::string& csv) const
+{
+    print();
+    if (csv.empty() || write(csv))
+        return 0;
+    std::fprintf(stderr, "%s can't be written\n", csv.c_str());
+    return 1;
+}
+
 bool Table::write(const std::string& name) const
 {
-    if (name.empty())
-        return true;
     std::ofstream file(name);
     for (std::size_t i = 0; i < _columns.size(); ++i)
         file << (i ? "," : "") << _columns[i];

@@ -17,12 +17,24 @@ struct FrameTime
     double cull = 0.0;  ///< Of it, the cull traversal.
 };
 
+/// What every benchmark takes from its command line.
+struct BenchmarkOptions
+{
+    int width = 640, height = 480; ///< --size WxH
+    int rounds = 7;                ///< --rounds N, after one that does not count
+    std::string csv;               ///< --csv file
+
+    /// False, and a line on the error stream, where a size is none.
+    bool read(osg::ArgumentParser& arguments);
+};
+
 /// Draws frames without lights of the viewer's own and takes their time.
 class FrameTimer
 {
 public:
-    FrameTimer(int width, int height);
+    explicit FrameTimer(const BenchmarkOptions& options);
 
+    /// False where there is no context, which the error stream was told.
     bool isValid() const { return _viewer.isValid(); }
     support::HeadlessViewer& getViewer() { return _viewer; }
     double getAspect() const { return double(_width) / _height; }
@@ -40,6 +52,13 @@ private:
 
 double median(std::vector<double> values);
 
+/// Appends the median of each of several series to a row.
+template <class Series> void addMedians(std::vector<double>& row, const Series& series)
+{
+    for (const std::vector<double>& values : series)
+        row.push_back(median(values));
+}
+
 /// Rows of numbers, for the terminal and for a CSV file.
 class Table
 {
@@ -48,22 +67,14 @@ public:
 
     /// One value a column; `label` is that of the first column.
     void add(const std::string& label, const std::vector<double>& values);
-    void print() const;
-    /// An empty name writes nothing; false where the file cannot be written.
-    bool write(const std::string& name) const;
+    /// Prints it, and writes it where a file is named. The exit status of a benchmark: 1, and a
+    /// line on the error stream, where the file can't be written.
+    int report(const std::string& csv) const;
 
 private:
+    void print() const;
+    bool write(const std::string& name) const;
+
     std::vector<std::string> _columns;
     std::vector<std::pair<std::string, std::vector<double>>> _rows;
-};
-
-/// What every benchmark takes from its command line.
-struct BenchmarkOptions
-{
-    int width = 640, height = 480; ///< --size WxH
-    int rounds = 7;                ///< --rounds N, after one that does not count
-    std::string csv;               ///< --csv file
-
-    /// False, and a line on the error stream, where a size is none.
-    bool read(osg::ArgumentParser& arguments);
 };

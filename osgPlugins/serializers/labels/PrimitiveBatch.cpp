@@ -94,10 +94,7 @@ osg::ref_ptr<RecordPage> readPage(osgDB::InputStream& is)
         !readWords(is, channels, 4 * std::size_t(size)))
         return nullptr;
     std::copy(channels.begin(), channels.end(), colors->front().ptr());
-    osg::ref_ptr<RecordPage> page = new RecordPage(records, colors);
-    for (unsigned int i = 0; i < size; ++i)
-        page->setIdentifier(i, 0);
-    return page;
+    return new RecordPage(records, colors);
 }
 
 std::string readContent(osgDB::InputStream& is, PrimitiveBatch::Content& content)
