@@ -32,7 +32,7 @@ void setInts(osg::Uniform& uniform, const glm::ivec4& values)
 } // namespace
 
 MixState::MixState(unsigned int unit)
-    : _texels(new osg::Vec4Array(1)),
+    : _texels(new osg::Vec4uiArray(1)),
       _frame(new osg::Uniform(osg::Uniform::FLOAT_MAT3, "osgmr_mixFrame")),
       _keys(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixKeys")),
       _rules(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixRules")),
@@ -40,7 +40,7 @@ MixState::MixState(unsigned int unit)
       _stateSet(new osg::StateSet)
 {
     const osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(_texels);
-    texture->setInternalFormat(GL_RGBA32F_ARB);
+    texture->setInternalFormat(GL_RGBA32UI_EXT);
     _stateSet->setDataVariance(osg::Object::DYNAMIC);
     _stateSet->setTextureAttribute(unit, texture, osg::StateAttribute::OVERRIDE);
     _stateSet->addUniform(new osg::Uniform("osgmr_mix", static_cast<int>(unit)));
@@ -60,7 +60,7 @@ void MixState::update(const KeyPoints& points, const MixWeights& weights,
                       const osg::Matrixd& keysToEye)
 {
     _values.set(points, weights, toGlm(keysToEye));
-    const std::size_t bytes = _values.texels.size() * sizeof(glm::vec4);
+    const std::size_t bytes = _values.texels.size() * sizeof(glm::uvec4);
     if (_texels->size() != _values.texels.size() ||
         std::memcmp(_texels->getDataPointer(), _values.texels.data(), bytes) != 0)
     {

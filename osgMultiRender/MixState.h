@@ -46,7 +46,7 @@ protected:
 
 private:
     MixTexels _values;
-    osg::ref_ptr<osg::Vec4Array> _texels;
+    osg::ref_ptr<osg::Vec4uiArray> _texels;
     osg::ref_ptr<osg::Uniform> _frame, _keys, _rules, _background;
     osg::ref_ptr<osg::StateSet> _stateSet;
 };

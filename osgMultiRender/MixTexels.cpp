@@ -11,7 +11,7 @@ namespace osgMultiRender
 namespace
 {
 
-constexpr int texelsPerNode = 7; ///< Six of bounds, one of children.
+constexpr int texelsPerNode = 4; ///< Three of bounds, one of children.
 
 /// Infinity is no number that every GLSL compiler keeps. Above what mix.glsl calls no distance.
 float toShader(double distance)
@@ -32,28 +32,20 @@ float up(double value)
     return -down(-value);
 }
 
-/// The point of the segment's line that is nearest to the eye, and how far the ends are from it
-/// along the line: what is near the eye is exact so, however far the ends are.
-void appendLine(std::vector<glm::vec4>& texels, const glm::dvec3& first, const glm::dvec3& second)
+/// The exponent byte, as that of a float, of the least power of two of which 255 make `extent`.
+std::uint32_t exponentFor(double extent)
 {
-    const glm::dvec3 along = second - first;
-    const double length = glm::length(along);
-    if (!(length > 0.0))
-    {
-        texels.emplace_back(first, 0.0f);
-        texels.emplace_back(0.0f);
-        return;
-    }
-    const glm::dvec3 unit = along / length;
-    const double nearest = std::clamp(-glm::dot(first, unit), 0.0, length);
-    // From the nearer end: the sum loses less.
-    const glm::dvec3 place =
-        nearest < 0.5 * length ? first + nearest * unit : second - (length - nearest) * unit;
-    texels.emplace_back(place, static_cast<float>(-nearest));
-    texels.emplace_back(unit, static_cast<float>(length - nearest));
+    int exponent = 0;
+    std::frexp(extent / 255.0, &exponent); // not more than 2^exponent
+    return static_cast<std::uint32_t>(std::clamp(exponent + 127, 1, 254));
 }
 
 } // namespace
+
+void MixTexels::addFloats(const glm::vec4& values)
+{
+    texels.push_back(glm::floatBitsToUint(values));
+}
 
 void MixTexels::addRanges(const MixWeights& weights)
 {
@@ -62,8 +54,22 @@ void MixTexels::addRanges(const MixWeights& weights)
                        given.excess == MixRules::Excess::Normalise, 0);
     background = glm::vec4(given.background);
     for (const MixRange& range : weights.getRanges())
-        texels.emplace_back(toShader(range.dr0), toShader(range.dr1), toShader(range.dr2),
-                            toShader(range.dr3));
+        addFloats(
+            {toShader(range.dr0), toShader(range.dr1), toShader(range.dr2), toShader(range.dr3)});
+}
+
+// The point of the segment's line that is nearest to the eye, and how far the ends are from it
+// along the line: what is near the eye is exact so, however far the ends are.
+void MixTexels::addLine(const glm::dvec3& first, const glm::dvec3& second)
+{
+    const double length = glm::length(second - first);
+    const glm::dvec3 unit = length > 0.0 ? (second - first) / length : glm::dvec3(0.0);
+    const double nearest = std::clamp(-glm::dot(first, unit), 0.0, length);
+    // From the nearer end: the sum loses less.
+    const glm::dvec3 place =
+        nearest < 0.5 * length ? first + nearest * unit : second - (length - nearest) * unit;
+    addFloats(glm::vec4(place, -nearest));
+    addFloats(glm::vec4(unit, length - nearest));
 }
 
 void MixTexels::addSegments(const KeyPoints& points, const glm::dvec3& eye)
@@ -74,9 +80,41 @@ void MixTexels::addSegments(const KeyPoints& points, const glm::dvec3& eye)
                       isJoined ? 2 : 1);
     for (const KeySegment& segment : segments)
         if (isJoined)
-            appendLine(texels, segment.first - eye, segment.second - eye);
+            addLine(segment.first - eye, segment.second - eye);
         else
-            texels.emplace_back(segment.first - eye, 0.0f);
+            addFloats(glm::vec4(segment.first - eye, 0.0));
+}
+
+// Boxes in bytes, from an origin and a power of two an axis. Those are floats as the segments' own
+// places are, so that no box shrinks by rounding.
+void MixTexels::addNode(const KeyTree::Node& node, const glm::dvec3& eye)
+{
+    glm::uvec4 origin(0u);
+    glm::uvec3 lows(0u), highs(0u);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        float low = std::numeric_limits<float>::max(), high = -low;
+        for (std::uint32_t i = 0; i < node.used; ++i)
+        {
+            low = std::min(low, down(node.children[i].low[axis] - eye[axis]));
+            high = std::max(high, up(node.children[i].high[axis] - eye[axis]));
+        }
+        const std::uint32_t exponent = exponentFor(double(high) - low);
+        const double step = std::ldexp(1.0, static_cast<int>(exponent) - 127);
+        origin[axis] = glm::floatBitsToUint(low);
+        origin.w |= exponent << (8 * axis);
+        for (std::uint32_t i = 0; i < node.used; ++i)
+        {
+            const double from = down(node.children[i].low[axis] - eye[axis]) - double(low);
+            const double to = up(node.children[i].high[axis] - eye[axis]) - double(low);
+            lows[axis] |= static_cast<std::uint32_t>(std::floor(from / step)) << (8 * i);
+            highs[axis] |= static_cast<std::uint32_t>(std::min(255.0, std::ceil(to / step)))
+                           << (8 * i);
+        }
+    }
+    texels.push_back(origin);
+    texels.emplace_back(lows, highs.x);
+    texels.emplace_back(highs.y, highs.z, 0u, 0u);
 }
 
 void MixTexels::addNodes(const KeyTree& tree, const glm::dvec3& eye)
@@ -84,37 +122,28 @@ void MixTexels::addNodes(const KeyTree& tree, const glm::dvec3& eye)
     // Few are faster looked at one by one; neighbouring fragments then read the same texels.
     if (tree.getSegments().size() <= LinearSize)
         return;
-    const int first = static_cast<int>(texels.size());
-    keys.x = first;
-    const auto address = [&](const KeyTree::Node::Child& child) -> float
-    {
-        if (child.count == 0)
-            return static_cast<float>(first + texelsPerNode * static_cast<int>(child.first));
-        // A leaf is negative: its first segment and their number less 1, in one.
-        return -1.0f - static_cast<float>(child.first * KeyTree::LeafSize + child.count - 1);
-    };
+    keys.x = static_cast<int>(texels.size());
     for (const KeyTree::Node& node : tree.getNodes())
     {
-        glm::mat3x4 low(0.0f), high(0.0f);
-        glm::vec4 addresses(0.0f);
+        addNode(node, eye);
+        glm::ivec4 addresses(0);
         for (int i = 0; i < static_cast<int>(node.used); ++i)
         {
             const KeyTree::Node::Child& child = node.children[static_cast<std::size_t>(i)];
-            for (int axis = 0; axis < 3; ++axis)
-            {
-                low[axis][i] = down(child.low[axis] - eye[axis]);
-                high[axis][i] = up(child.high[axis] - eye[axis]);
-            }
-            addresses[i] = address(child);
+            // A leaf is negative: its first segment and their number less 1, in one.
+            addresses[i] =
+                child.count == 0
+                    ? keys.x + texelsPerNode * static_cast<int>(child.first)
+                    : -1 - static_cast<int>(child.first * KeyTree::LeafSize + child.count - 1);
         }
-        texels.insert(texels.end(), {addresses, low[0], high[0], low[1], high[1], low[2], high[2]});
+        texels.emplace_back(addresses);
     }
 }
 
 void MixTexels::set(const KeyPoints& points, const MixWeights& weights, const glm::dmat4& keysToEye)
 {
     // Texel 0 is no place for anything: address 0 says none.
-    texels.assign(1, glm::vec4(0.0f));
+    texels.assign(1, glm::uvec4(0u));
     addRanges(weights);
     const glm::dmat3 inverse = glm::inverse(glm::dmat3(keysToEye));
     const glm::dvec3 eye = -(inverse * glm::dvec3(keysToEye[3]));

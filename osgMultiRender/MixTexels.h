@@ -17,8 +17,8 @@ struct OSGMULTIRENDER_EXPORT MixTexels
     /// Up to so many segments there is no tree.
     static constexpr std::size_t LinearSize = 16;
 
-    std::vector<glm::vec4> texels; ///< A buffer texture of RGBA32F, sampler osgmr_mix.
-    glm::mat3 frame{1.0f};         ///< Uniform osgmr_mixFrame: from eye space to the key points'.
+    std::vector<glm::uvec4> texels; ///< A buffer texture of RGBA32UI, sampler osgmr_mix.
+    glm::mat3 frame{1.0f};          ///< Uniform osgmr_mixFrame: from eye space to the key points'.
     /// Uniform osgmr_mixKeys: the tree's root or 0; the first segment; their number; texels each.
     glm::ivec4 keys{0, 0, 0, 1};
     /// Uniform osgmr_mixRules: number of renderings; base or -1; whether to normalise; 0.
@@ -31,9 +31,12 @@ struct OSGMULTIRENDER_EXPORT MixTexels
     void set(const KeyPoints& points, const MixWeights& weights, const glm::dmat4& keysToEye);
 
 private:
+    void addFloats(const glm::vec4& values);
+    void addLine(const glm::dvec3& first, const glm::dvec3& second);
     void addRanges(const MixWeights& weights);
     void addSegments(const KeyPoints& points, const glm::dvec3& eye);
     void addNodes(const KeyTree& tree, const glm::dvec3& eye);
+    void addNode(const KeyTree::Node& node, const glm::dvec3& eye);
 };
 
 } // namespace osgMultiRender

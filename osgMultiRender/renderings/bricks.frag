@@ -35,8 +35,10 @@ vec2 solid(vec2 at)
 
 float cellNoise(vec2 cell)
 {
-    float x = fract(dot(mod(cell, 64.0), vec2(0.7549, 0.5698)));
-    return fract((x + 1.7) * (x + 9.1) * 57.3);
+    vec2 x = fract(mod(cell, 64.0) * vec2(0.3819, 0.2763)) + 0.5;
+    x = fract(x * (x.yx + 2.7) * 7.3);
+    x = fract((x + 0.5) * (x.yx + 3.1) * 9.7);
+    return fract(x.x + x.y);
 }
 
 void main()

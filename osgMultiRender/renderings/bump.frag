@@ -34,8 +34,10 @@ vec4 surfaceColor()
 // 0 to 1, from whole numbers.
 float cellNoise(vec3 cell)
 {
-    float x = fract(dot(mod(cell, 64.0), vec3(0.7549, 0.5698, 0.4302)));
-    return fract((x + 1.7) * (x + 9.1) * 57.3);
+    vec3 x = fract(mod(cell, 64.0) * vec3(0.3819, 0.2763, 0.4437)) + 0.5;
+    x = fract(x * (x.yzx + 2.7) * (x.zxy + 5.3));
+    x = fract((x + 0.5) * (x.yzx + 3.1) * (x.zxy + 7.9));
+    return fract(x.x + x.y + x.z);
 }
 
 // -1 to 1, smooth, with features of size 1.

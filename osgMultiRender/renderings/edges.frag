@@ -1,6 +1,7 @@
 #version 120
 
-// A drawing of feature edges: outlines and where the surface bends sharply, of even width.
+// A drawing of feature edges: outlines and where the surface bends sharply, of even width. Flat
+// sides differ by their tone; the edge between two of them is none that one pass can see.
 
 uniform float width; // = 2 [0.5, 8]
 uniform float bend; // = 0.12 [0.01, 1]
@@ -35,6 +36,6 @@ void main()
     vec3 turnX = dFdx(normal), turnY = dFdy(normal);
     float turn = sqrt(dot(turnX, turnX) + dot(turnY, turnY)) * max(facing, 0.0);
     float crease = smoothstep(bend, 1.5 * bend, turn);
-    float shade = 0.12 * (1.0 - max(dot(normal, lightDirection(eyePosition)), 0.0));
+    float shade = 0.3 * (1.0 - max(dot(normal, lightDirection(eyePosition)), 0.0));
     gl_FragColor = vec4(mix(paper * (1.0 - shade), ink, max(outline, crease)), 1.0);
 }

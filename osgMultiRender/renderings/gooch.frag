@@ -3,9 +3,9 @@
 // Gooch shading: warm where the light is, cool where it is not, never black, so that shape can be
 // read everywhere.
 
-uniform vec3 cool; // = 0.1 0.2 0.55 [0, 1]
-uniform vec3 warm; // = 0.75 0.6 0.2 [0, 1]
-uniform float tint; // = 0.35 [0, 1]
+uniform vec3 cool; // = 0.15 0.25 0.6 [0, 1]
+uniform vec3 warm; // = 0.95 0.85 0.55 [0, 1]
+uniform float tint; // = 0.3 [0, 1]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
@@ -37,8 +37,8 @@ void main()
     vec3 toLight = lightDirection(eyePosition);
     vec3 toEye = -normalize(eyePosition);
     vec4 surface = surfaceColor();
-    float warmth = 0.5 + 0.5 * dot(normal, toLight);
-    vec3 tone = mix(cool + tint * surface.rgb, warm + tint * surface.rgb, warmth);
+    float warmth = clamp(0.35 + 0.65 * dot(normal, toLight), 0.0, 1.0);
+    vec3 tone = mix(mix(cool, surface.rgb, tint), mix(warm, surface.rgb, tint), warmth);
     float mirrored = max(dot(reflect(-toLight, normal), toEye), 0.0);
     float facing = dot(normal, toEye);
     float line = 1.5 * max(fwidth(facing), 0.02);

@@ -26,11 +26,12 @@ vec3 seenNormal(vec3 normal, vec3 position)
     return faceforward(n, position, n);
 }
 
-// Coverage by strokes of a share of their spacing, `pixel` of which are a pixel.
+// Share of a pixel that a stroke covers; a share of their spacing is stroke, `pixel` of it a pixel.
 float strokes(float at, float pixel, float share)
 {
-    float fromMiddle = abs(fract(at) - 0.5);
-    return clamp((0.5 * share - fromMiddle) / pixel + 0.5, 0.0, 1.0) * step(1e-3, share);
+    float middle = abs(fract(at + 0.5) - 0.5);
+    float low = max(-0.5 * share, middle - 0.5 * pixel), high = min(0.5 * share, middle + 0.5 * pixel);
+    return clamp((high - low) / pixel, 0.0, 1.0);
 }
 
 // Strokes where the model meets planes across a direction. Their distance is a power of two of
@@ -42,7 +43,7 @@ float slices(vec3 direction, float share)
     float scale = exp2(-floor(level)), fine = 1.0 - fract(level);
     float pixel = exp2(fract(level)) / spacing;
     float both = strokes(at * scale, pixel, share * exp2(fract(level)) * fine);
-    float coarse = strokes(0.5 * at * scale + 0.25, 0.5 * pixel, 0.5 * share * exp2(fract(level)));
+    float coarse = strokes(0.5 * at * scale, 0.5 * pixel, 0.5 * share * exp2(fract(level)));
     return max(both, coarse);
 }
 

@@ -4,7 +4,7 @@
 
 uniform sampler2D image; // = 0
 uniform vec2 imageSize; // = 0 0
-uniform float strength; // = 1 [0, 8]
+uniform float strength; // = 0.5 [0, 8]
 
 varying vec2 place;
 

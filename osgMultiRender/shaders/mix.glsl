@@ -8,7 +8,7 @@
 //     ...
 //     gl_FragColor = osgmr_mixed(sum);
 
-uniform samplerBuffer osgmr_mix;
+uniform usamplerBuffer osgmr_mix;
 uniform mat3 osgmr_mixFrame; // from eye space to the key points'; both have the eye at 0
 uniform ivec4 osgmr_mixKeys; // texel of the tree's root or 0; of the first segment; their number;
                              // texels a segment: 1 for points, 2 for lines
@@ -23,14 +23,24 @@ float osgmr_mixScale = 1.0;
 float osgmr_mixMissing = 0.0;
 float osgmr_mixDistance = osgmr_noDistance;
 
+vec4 osgmr_mixFloats(int texel)
+{
+    return uintBitsToFloat(texelFetch(osgmr_mix, texel));
+}
+
+vec4 osgmr_mixBytes(uint word)
+{
+    return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u);
+}
+
 // Squared distance to a segment.
 float osgmr_segment(int texel, vec3 at)
 {
-    vec4 place = texelFetch(osgmr_mix, texel);
+    vec4 place = osgmr_mixFloats(texel);
     vec3 away = at - place.xyz;
     if (osgmr_mixKeys.w > 1)
     {
-        vec4 line = texelFetch(osgmr_mix, texel + 1); // unit direction; place.w and w are its ends
+        vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
         away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
     }
     return dot(away, away);
@@ -48,58 +58,64 @@ float osgmr_nearestOf(int texel, int count, vec3 at, float nearest)
     return nearest;
 }
 
-// Squared distances to the boxes of a node's four children.
+// How far a coordinate is outside of four intervals.
+vec4 osgmr_outside(uint lows, uint highs, float unit, float at)
+{
+    return max(max(unit * osgmr_mixBytes(lows) - at, at - unit * osgmr_mixBytes(highs)), 0.0);
+}
+
+// Squared distances to the boxes of a node's four children: bytes times a power of two.
 vec4 osgmr_boxes(int node, vec3 at)
 {
-    vec4 x = max(max(texelFetch(osgmr_mix, node + 1) - at.x, at.x - texelFetch(osgmr_mix, node + 2)), 0.0);
-    vec4 y = max(max(texelFetch(osgmr_mix, node + 3) - at.y, at.y - texelFetch(osgmr_mix, node + 4)), 0.0);
-    vec4 z = max(max(texelFetch(osgmr_mix, node + 5) - at.z, at.z - texelFetch(osgmr_mix, node + 6)), 0.0);
+    uvec4 origin = texelFetch(osgmr_mix, node);
+    uvec4 words = texelFetch(osgmr_mix, node + 1);
+    uvec4 others = texelFetch(osgmr_mix, node + 2);
+    vec3 from = at - uintBitsToFloat(origin.xyz);
+    vec3 unit = uintBitsToFloat((uvec3(origin.w, origin.w >> 8, origin.w >> 16) & 255u) << 23);
+    vec4 x = osgmr_outside(words.x, words.w, unit.x, from.x);
+    vec4 y = osgmr_outside(words.y, others.x, unit.y, from.y);
+    vec4 z = osgmr_outside(words.z, others.y, unit.z, from.z);
     return x * x + y * y + z * z;
 }
 
-// The child with the nearest box is entered at once, the others wait with their distances.
+// The child with the nearest box is entered at once, the others wait with their distances. Down to
+// a leaf without branches, so that neighbouring fragments stay together.
 float osgmr_nearestInTree(vec3 at, float nearest)
 {
-    vec2 waiting[osgmr_mixStack]; // squared distance, address
+    float waitingSquares[osgmr_mixStack];
+    int waiting[osgmr_mixStack];
     int depth = 0;
-    float address = float(osgmr_mixKeys.x);
+    int address = osgmr_mixKeys.x;
     for (;;)
     {
-        while (address > 0.0)
+        while (address > 0)
         {
-            vec4 children = texelFetch(osgmr_mix, int(address));
-            vec4 squares = osgmr_boxes(int(address), at);
-            address = 0.0;
+            ivec4 children = ivec4(texelFetch(osgmr_mix, address + 3));
+            vec4 squares = osgmr_boxes(address, at);
+            address = 0;
             float best = nearest;
             for (int i = 0; i < 4; ++i)
             {
-                if (children[i] == 0.0 || !(squares[i] < nearest))
-                    continue;
-                if (squares[i] < best)
-                {
-                    if (address != 0.0)
-                        waiting[depth++] = vec2(best, address);
-                    best = squares[i];
-                    address = children[i];
-                }
-                else
-                    waiting[depth++] = vec2(squares[i], children[i]);
+                bool enters = children[i] != 0 && squares[i] < nearest;
+                bool isNearest = enters && squares[i] < best;
+                waitingSquares[depth] = isNearest ? best : squares[i];
+                waiting[depth] = isNearest ? address : children[i];
+                depth += int(enters && (address != 0 || !isNearest));
+                best = isNearest ? squares[i] : best;
+                address = isNearest ? children[i] : address;
             }
         }
-        if (address < 0.0)
+        if (address < 0)
         {
-            int leaf = int(-1.0 - address);
+            int leaf = -1 - address;
             nearest = osgmr_nearestOf(osgmr_mixKeys.y + leaf / osgmr_mixLeafSize * osgmr_mixKeys.w,
                                       leaf % osgmr_mixLeafSize + 1, at, nearest);
         }
-        address = 0.0;
-        while (depth > 0 && address == 0.0)
-        {
-            vec2 entry = waiting[--depth];
-            if (entry.x < nearest)
-                address = entry.y;
-        }
-        if (address == 0.0)
+        address = 0;
+        while (depth > 0 && address == 0)
+            if (waitingSquares[--depth] < nearest)
+                address = waiting[depth];
+        if (address == 0)
             return nearest;
     }
 }
@@ -118,7 +134,7 @@ float osgmr_distance(vec3 eyePosition)
 // Of one rendering alone, before the rules.
 float osgmr_rangeWeight(int rendering, float distance)
 {
-    vec4 range = texelFetch(osgmr_mix, 1 + rendering);
+    vec4 range = osgmr_mixFloats(1 + rendering);
     if (distance < range.y)
         return distance > range.x ? (distance - range.x) / (range.y - range.x) : 0.0;
     if (distance > range.z)

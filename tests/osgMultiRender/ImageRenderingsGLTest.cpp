@@ -59,7 +59,7 @@ osg::Vec4 sobel(const osg::Image& image, int x, int y)
             dx += mask[j][i] * bright;
             dy += mask[i][j] * bright;
         }
-    return grey(std::hypot(dx, dy));
+    return grey(0.5 * std::hypot(dx, dy));
 }
 
 osg::Vec4 sepia(const osg::Vec4& color)

@@ -4,6 +4,7 @@
 
 #include <osgMultiRender/MixState.h>
 #include <support/HeadlessViewer.h>
+#include <support/NotifyCapture.h>
 
 #include <osg/Geometry>
 #include <osg/Program>
@@ -167,6 +168,10 @@ TEST_F(MixGLTest, equalsTheReferenceForAllSetsModesViewsAndRules)
         for (const KeySet& set : makeKeySets(count, 11))
             for (const KeyMode mode : AllKeyModes)
             {
+                // 10,000 lines across each other take seconds a picture in software.
+                if (count == 10000 &&
+                    mode != (set.name == "path" ? KeyMode::Polyline : KeyMode::Points))
+                    continue;
                 SCOPED_TRACE(set.name + " " + std::to_string(count) + " mode " +
                              std::to_string(int(mode)) + " kind " + std::to_string(kind));
                 ASSERT_NO_FATAL_FAILURE(compare(set, mode, kind++));
@@ -210,6 +215,42 @@ TEST_F(MixGLTest, aViewThatCannotBeInvertedLeavesNoKeyPoints)
         {
             EXPECT_EQ(reinterpret_cast<const float*>(picture->data())[0], 1e30f) << bad;
         }
+    }
+}
+
+TEST_F(MixGLTest, nothingIsCompiledWhileEverythingMoves)
+{
+    const auto countCompilations = [](const support::NotifyCapture::Lines& lines)
+    {
+        return std::count_if(lines.begin(), lines.end(),
+                             [](const std::string& line)
+                             {
+                                 return line.find("Compiling") != std::string::npos ||
+                                        line.find("Linking") != std::string::npos;
+                             });
+    };
+    support::NotifyCapture capture(osg::INFO);
+    const std::size_t counts[] = {0, 1, 16, 17, 100, 1000};
+    for (int frame = 0; frame < 1000; ++frame)
+    {
+        // The key points' number, places and mode; ranges; rules; the view; positions now and then.
+        const KeyMode mode = AllKeyModes[frame % 3];
+        KeySet set{"moved", {}, randomIn(_random, 100.0), 1.0 + frame % 10};
+        for (std::size_t i = 0; i < counts[frame % 6]; ++i)
+            set.points.push_back(set.center + randomIn(_random, set.radius));
+        if (frame % 25 == 0)
+        {
+            ASSERT_NO_FATAL_FAILURE(compare(set, mode, frame)) << frame;
+        }
+        else
+        {
+            const MixWeights weights({{0.0, 0.1 * (frame % 7), 1.0, 0.01 * frame}},
+                                     makeRules(frame));
+            _twin.state->update(KeyPoints(set.points, mode), weights, makeView(set, frame % 3));
+            ASSERT_TRUE(draw());
+        }
+        const auto compilations = countCompilations(capture.takeMessages());
+        ASSERT_EQ(compilations > 0, frame == 0) << frame << ": " << compilations;
     }
 }
 

@@ -24,7 +24,7 @@ using support::CameraSpec;
 namespace
 {
 
-constexpr int Size = 192;
+constexpr int Size = 256;
 
 /// Pictures side by side, row by row from the top.
 class Sheet
@@ -140,7 +140,7 @@ TEST_F(RenderingsGLTest, eachDrawsAPictureOfItsOwnWithoutWarnings)
         sheet.add(*picture);
         EXPECT_GT(countColors(*picture), 50u);
         for (const auto& other : pictures)
-            EXPECT_GT(rms(*picture, *other), 0.02);
+            EXPECT_GT(rms(*picture, *other), 0.01);
         pictures.push_back(picture);
     }
     EXPECT_EQ(pictures.size(), 21u);
@@ -172,8 +172,9 @@ TEST_F(RenderingsGLTest, surfacesAreAntialiased)
         const double error = rms(*picture, *shrink(*large, 4));
         std::printf("%-10s differs from its supersampled picture by %.2f %% RMS\n",
                     rendering.name.c_str(), 100.0 * error);
-        // Edges of triangles alone, which no shader can soften, are some 4 %.
-        EXPECT_LT(error, 0.07) << rendering.name;
+        // Edges of triangles, which no shader can soften, are some 1 to 2 %. A checker board
+        // without its filter is at 4.7.
+        EXPECT_LT(error, 0.045) << rendering.name;
     }
 }
 
@@ -206,7 +207,10 @@ TEST_F(RenderingsGLTest, drawAModelOfManyParts)
         const osg::ref_ptr<osg::Image> picture =
             draw(rendering, model, CameraSpec::overview(*model, 1.0), Size, scale);
         ASSERT_TRUE(picture);
-        EXPECT_GT(countColors(*picture), 30u) << rendering.name;
+        if (rendering.name != "textured") // it has no texture
+        {
+            EXPECT_GT(countColors(*picture), 30u) << rendering.name;
+        }
         sheet.add(*picture);
     }
     sheet.write("renderings-model");
