@@ -24,6 +24,7 @@ struct Side
     std::string interpolation;
     std::size_t shader = 0, token = 0;
     std::string type;
+    int location = -1;
     bool used = false;
 };
 
@@ -177,6 +178,7 @@ private:
         side.token = one.nameToken;
         side.used = used;
         side.type = specifiers.type;
+        side.location = layoutValue(source, specifiers, "location");
         for (const char* word : {"centroid", "sample", "flat", "noperspective"})
         {
             if (specifiers.has(word) || outer.has(word))
@@ -295,7 +297,13 @@ private:
 
     void connect(const std::string& key, const Side& fragment, std::map<std::string, Side>& vertex)
     {
-        const auto found = vertex.find(key);
+        auto found = vertex.find(key);
+        if (found == vertex.end() && fragment.location >= 0)
+        {
+            // From GLSL 410 on locations join, whatever the names.
+            found = std::find_if(vertex.begin(), vertex.end(), [&](const auto& one)
+                                 { return one.second.location == fragment.location; });
+        }
         const MergeShader& shader = _program.fragment.shaders[fragment.shader];
         if (found == vertex.end())
         {

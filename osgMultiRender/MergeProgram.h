@@ -141,6 +141,9 @@ std::set<std::string> usedGlobals(const MergeStage& stage);
 /// The integer that tokens [first, last) are worth: numbers and constants of the text.
 long long constantOf(const GlslSource& source, std::size_t first, std::size_t last, bool& known);
 
+/// The value of "key = n" in the layout of a declaration; -1 if there is none.
+int layoutValue(const GlslSource& source, const GlslSpecifiers& specifiers, std::string_view key);
+
 /// The sizes of an array, "[2][3]", outermost first. False if one is not known.
 bool arraySizes(const GlslSource& source, const GlslRange& range, std::vector<int>& sizes);
 

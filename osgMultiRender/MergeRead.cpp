@@ -110,6 +110,10 @@ public:
             {
                 collect(*stage, i);
             }
+            // A declared size bounds what an index that varies may mean.
+            stage->texCoords.erase(stage->texCoords.lower_bound(_texCoords),
+                                   stage->texCoords.end());
+            _texCoords = 32;
             checkMain(*stage);
             findTaints(*stage);
         }
@@ -317,7 +321,7 @@ private:
         }
         if (one.name.compare(0, 3, "gl_") == 0)
         {
-            redeclaration(stage, source, one);
+            redeclaration(source, one);
             return;
         }
         MergeEntity::Kind kind = MergeEntity::Kind::Variable;
@@ -351,12 +355,12 @@ private:
     }
 
     /// "varying vec4 gl_TexCoord[3];"
-    void redeclaration(MergeStage& stage, const GlslSource& source, const GlslDeclaration& one)
+    void redeclaration(const GlslSource& source, const GlslDeclaration& one)
     {
         std::vector<int> sizes;
         if (one.name == "gl_TexCoord" && arraySizes(source, one.array, sizes) && sizes.size() == 1)
         {
-            stage.texCoords.insert(std::min(sizes[0], 32) - 1);
+            _texCoords = std::min(_texCoords, sizes[0]);
         }
         for (const GlslQualifier& qualifier : source.specifiersOf(one).qualifiers)
         {
@@ -391,13 +395,17 @@ private:
                 _program.discards = _program.discards || (isFragment(stage) && word == "discard");
                 continue;
             }
-            if (source.uses[i].kind != GlslUse::Kind::Builtin)
+            // Redeclared ones are globals: "varying vec4 gl_TexCoord[2];".
+            const GlslUse::Kind use = source.uses[i].kind;
+            const bool redeclared = use == GlslUse::Kind::Global && word.substr(0, 3) == "gl_" &&
+                                    source.declarations[source.uses[i].target].nameToken != i;
+            if (use != GlslUse::Kind::Builtin && !redeclared)
             {
                 continue;
             }
             const bool derives = isFragment(stage) && takesDerivatives(word);
             _program.derivatives = _program.derivatives || derives;
-            if (word.substr(0, 3) == "gl_")
+            if (word.substr(0, 3) == "gl_" || word == "ftransform")
             {
                 stage.usedBuiltins.emplace(word);
                 indexed(stage, source, i);
@@ -453,6 +461,7 @@ private:
 
     MergeProgram& _program;
     std::vector<MergedFile>& _files;
+    int _texCoords = 32; ///< The declared size of gl_TexCoord.
     std::vector<const GlslBlock*> _blockOf; ///< By declaration of the source that is read.
 };
 

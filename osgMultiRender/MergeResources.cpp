@@ -17,7 +17,8 @@ using Kind = MergeEntity::Kind;
 
 bool isSampler(std::string_view type)
 {
-    return type.substr(0, 7) == "sampler" || type.substr(1, 7) == "sampler";
+    return type.substr(0, 7) == "sampler" ||
+           (type.size() > 8 && type.substr(1, 7) == "sampler");
 }
 
 /// Components of a built-in type; 0 for others.
@@ -36,36 +37,6 @@ int componentsOf(const std::string& type)
         return columns * (rows ? rows : columns);
     }
     return isBuiltinType(type) && type != "void" ? 1 : 0;
-}
-
-/// The value of "key = n" in the layout of a declaration; -1 if there is none.
-int layoutValue(const GlslSource& source, const GlslSpecifiers& specifiers, std::string_view key)
-{
-    for (const GlslQualifier& qualifier : specifiers.qualifiers)
-    {
-        for (std::size_t i = qualifier.range.first; i < qualifier.range.last; ++i)
-        {
-            if (source.uses[i].kind != GlslUse::Kind::LayoutName || source.word(i) != key)
-            {
-                continue;
-            }
-            std::size_t first = i + 1;
-            while (first < qualifier.range.last && source.word(first) != "=")
-            {
-                ++first;
-            }
-            std::size_t last = ++first;
-            while (last < qualifier.range.last && source.word(last) != "," &&
-                   source.word(last) != ")")
-            {
-                ++last;
-            }
-            bool known = false;
-            const long long value = constantOf(source, first, last, known);
-            return known && value >= 0 && value < 256 ? static_cast<int>(value) : -1;
-        }
-    }
-    return -1;
 }
 
 struct Attribute
@@ -116,7 +87,7 @@ private:
                                        name.compare(0, 16, "gl_MultiTexCoord") == 0;
                 if (attribute || name == "ftransform")
                 {
-                    builtins.insert(name);
+                    builtins.insert(attribute ? name : "gl_Vertex");
                 }
             }
             collectAttributes(*program, all);
@@ -127,7 +98,7 @@ private:
         std::vector<std::vector<const Attribute*>> groups;
         for (const Attribute& one : all)
         {
-            place(one, builtins.count("gl_Vertex") || positionByFunction(), groups);
+            place(one, builtins.count("gl_Vertex") != 0, groups);
         }
         for (const std::vector<const Attribute*>& group : groups)
         {
@@ -135,12 +106,6 @@ private:
         }
         _merged.statistics.vertexAttributes =
             static_cast<int>(builtins.size() + _merged.attributes.size());
-    }
-
-    bool positionByFunction() const
-    {
-        return std::any_of(_programs.begin(), _programs.end(), [](const MergeProgram* program)
-                           { return program->vertex.uses("ftransform"); });
     }
 
     void collectAttributes(MergeProgram& program, std::vector<Attribute>& all)
@@ -365,16 +330,14 @@ private:
                   const GlslDeclaration& declared)
     {
         const RenderingUniform* known = program.rendering->findUniform(one.name);
-        const int bound =
-            std::max(layoutValue(source, source.specifiersOf(declared), "binding"), 0);
+        const int bound = layoutValue(source, source.specifiersOf(declared), "binding");
         for (int i = 0; i < std::max(one.arraySize, 1) && i < 256; ++i)
         {
             const auto index = static_cast<std::size_t>(i);
-            double unit = bound + i;
-            if (known && !known->values.empty())
+            double unit = bound >= 0 ? bound + i : 0.0;
+            if (known && index < known->values.size())
             {
-                unit = index < known->values.size() ? known->values[index]
-                                                    : known->values.back() + i;
+                unit = known->values[index];
             }
             one.units.push_back(unit >= 0.0 && unit < 256.0 ? static_cast<unsigned int>(unit) : 0);
         }
@@ -491,6 +454,35 @@ private:
 };
 
 } // namespace
+
+int layoutValue(const GlslSource& source, const GlslSpecifiers& specifiers, std::string_view key)
+{
+    for (const GlslQualifier& qualifier : specifiers.qualifiers)
+    {
+        for (std::size_t i = qualifier.range.first; i < qualifier.range.last; ++i)
+        {
+            if (source.uses[i].kind != GlslUse::Kind::LayoutName || source.word(i) != key)
+            {
+                continue;
+            }
+            std::size_t first = i + 1;
+            while (first < qualifier.range.last && source.word(first) != "=")
+            {
+                ++first;
+            }
+            std::size_t last = ++first;
+            while (last < qualifier.range.last && source.word(last) != "," &&
+                   source.word(last) != ")")
+            {
+                ++last;
+            }
+            bool known = false;
+            const long long value = constantOf(source, first, last, known);
+            return known && value >= 0 && value < 256 ? static_cast<int>(value) : -1;
+        }
+    }
+    return -1;
+}
 
 void planResources(const std::vector<MergeProgram*>& programs, MergeNames& names,
                    const MergeOptions& options, Merged& merged)

@@ -661,7 +661,8 @@ std::string builtinGlobals(const MergeProgram& program, bool fragment)
     {
         const bool scalar = builtin == "gl_FragDepth" || builtin == "gl_PointSize" ||
                             builtin == "gl_FogFragCoord" || builtin == "gl_ClipDistance";
-        const int size = builtin == "gl_TexCoord" ? *stage.texCoords.rbegin() + 1
+        const int coordinates = stage.texCoords.empty() ? 1 : *stage.texCoords.rbegin() + 1;
+        const int size = builtin == "gl_TexCoord"       ? coordinates
                          : builtin == "gl_FragData"     ? stage.fragData
                          : builtin == "gl_ClipDistance" ? stage.clipDistances
                                                         : 0;

@@ -247,10 +247,12 @@ private:
         {
             const auto bound = _program.rendering->attributeBindings.find(text);
             value += "attribute " + source.specifiersOf(one).type + " " + text;
+            const int location = layoutValue(source, source.specifiersOf(one), "location");
             value += bound == _program.rendering->attributeBindings.end()
                          ? ""
                          : " at " + std::to_string(bound->second);
-            return source.specifiersOf(one).has("layout") == false;
+            value += location < 0 ? "" : " in " + std::to_string(location);
+            return true;
         }
         case Kind::Constant:
             for (std::size_t i = one.initializer.first; i < one.initializer.last; ++i)

@@ -79,6 +79,9 @@ void setOne(GLint at, GLenum type, int count, const std::vector<float>& v)
     case GL_FLOAT_MAT4:
         glUniformMatrix4fv(at, count, GL_FALSE, f);
         break;
+    case GL_INT_VEC2:
+        glUniform2iv(at, count, ints.data());
+        break;
     default:
         glUniform1iv(at, count, ints.data());
         break;
@@ -90,6 +93,7 @@ int componentsOf(GLenum type)
     switch (type)
     {
     case GL_FLOAT_VEC2:
+    case GL_INT_VEC2:
         return 2;
     case GL_FLOAT_VEC3:
         return 3;
@@ -305,10 +309,7 @@ void MergeStudio::setUniforms(const PlainProgram& program, const Rendering& rend
         }
         else if (isSampler(type) && !(known && !known->values.empty()))
         {
-            for (std::size_t c = 0; c < values.size(); ++c)
-            {
-                values[c] = static_cast<float>(c);
-            }
+            continue;
         }
         setOne(at, type, size, values);
     }
