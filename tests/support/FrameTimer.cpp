@@ -71,14 +71,16 @@ void Table::add(const std::string& label, const std::vector<double>& values)
 
 void Table::print() const
 {
-    for (const std::string& column : _columns)
-        std::printf("%16s", column.c_str());
+    const auto width = [this](std::size_t column)
+    { return int(std::max<std::size_t>(16, _columns[column].size() + 2)); };
+    for (std::size_t i = 0; i < _columns.size(); ++i)
+        std::printf("%*s", width(i), _columns[i].c_str());
     std::printf("\n");
     for (const auto& [label, values] : _rows)
     {
-        std::printf("%16s", label.c_str());
-        for (double value : values)
-            std::printf("%16.3f", value);
+        std::printf("%*s", width(0), label.c_str());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            std::printf("%*.3f", width(i + 1), values[i]);
         std::printf("\n");
     }
 }
