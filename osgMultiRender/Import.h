@@ -29,6 +29,7 @@ OSGMULTIRENDER_EXPORT Rendering importShaderDesigner(const std::string& text,
 /// vertices, colours and texture coordinates are the fixed function's, without lights.
 ///
 /// Comments behind a uniform give its values: `uniform vec3 Color; // = 1, 0.5, 0 min 0 max 1`.
+/// Or, as the built-in renderings have it, `// = 1 0.5 0 [0, 1]`.
 /// Those of samplers name a unit or a file: `uniform sampler2D Wood; // = "wood.png"`. Values in
 /// `name.uniforms` beside the files, one `Color = 1, 0.5, 0` a line, win over those of comments.
 OSGMULTIRENDER_EXPORT Rendering importGlsl(const std::string& vertexFile,
@@ -40,5 +41,8 @@ OSGMULTIRENDER_EXPORT Rendering importGlsl(const std::string& vertexFile,
 /// osg_FrameTime, iChannel0 to 3 are texture units 0 to 3.
 OSGMULTIRENDER_EXPORT Rendering importShadertoy(const std::string& text,
                                                 const std::string& fileName);
+
+/// A built-in rendering by its name, else the file, as importRendering().
+OSGMULTIRENDER_EXPORT Rendering importNamed(const std::string& nameOrFile);
 
 } // namespace osgMultiRender

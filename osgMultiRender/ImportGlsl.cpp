@@ -38,7 +38,7 @@ unsigned int freeUnit(const Rendering& rendering)
     return unit;
 }
 
-/// Reads "1, 0.5, 0 min 0 max 1" or a file's name.
+/// Reads "1, 0.5, 0 min 0 max 1", "1, 0.5, 0 [0, 1]" or a file's name.
 void readValues(Rendering& rendering, RenderingUniform& uniform, const std::string& text,
                 std::size_t at)
 {
@@ -56,6 +56,18 @@ void readValues(Rendering& rendering, RenderingUniform& uniform, const std::stri
     if (!values.empty())
     {
         uniform.values = std::move(values);
+    }
+    const std::size_t bracket = text.find_first_not_of(" \t", at);
+    if (bracket != std::string::npos && text[bracket] == '[') // = 40 [1, 200]
+    {
+        at = bracket + 1;
+        const std::vector<double> both = readNumbers(text, at);
+        if (both.size() == 2)
+        {
+            uniform.minimum = both[0];
+            uniform.maximum = both[1];
+        }
+        return;
     }
     const std::pair<const char*, double*> bounds[] = {{"min", &uniform.minimum},
                                                       {"max", &uniform.maximum}};

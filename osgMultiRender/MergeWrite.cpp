@@ -234,6 +234,7 @@ private:
                  "    vec4 osgmr_c;\n";
         _text += _depth ? "    float osgmr_depth = 0.0;\n" : "";
         _text += _options.outside == MergeOutside::Base ? "    vec4 osgmr_base;\n" : "";
+        _text += _options.begin.empty() ? "" : "    " + _options.begin + "\n";
         for (const MergeProgram* program : _programs)
         {
             rendering(*program);
@@ -311,7 +312,10 @@ private:
             _text +=
                 "    if (osgmr_total > 1.0)\n    {\n        osgmr_sum /= osgmr_total;\n    }\n";
         }
-        _text += "    osgmr_color = clamp(vec4(osgmr_sum, osgmr_total), 0.0, 1.0);\n";
+        const std::string sum = "vec4(osgmr_sum, osgmr_total)";
+        _text += "    osgmr_color = " + (_options.end.empty() ? "clamp(" + sum + ", 0.0, 1.0)"
+                                                              : _options.end + "(" + sum + ")") +
+                 ";\n";
     }
 
     const std::vector<MergeProgram*>& _programs;

@@ -45,6 +45,12 @@ struct MergeOptions
     /// `rendering` is an entry's index. Empty: all weights are 1 / the number of renderings.
     std::string weights;
 
+    /// Statements at the head of the fragment stage's main(), with what `weights` defines.
+    std::string begin;
+    /// Name of a function that `weights` defines, `vec4 f(vec4 sum)`: from the sum of weight times
+    /// colour, and of the weights, to the fragment's colour. Empty: the sum, clamped to 0 to 1.
+    std::string end;
+
     MergeOutside outside = MergeOutside::Background;
     bool normalize = false;        ///< Divide by the sum of the weights where it is above 1.
     bool clampVertexColors = true; ///< gl_FrontColor as under GL's own GL_CLAMP_VERTEX_COLOR.

@@ -168,8 +168,7 @@ void SurfaceFrame::drawOne(osg::RenderInfo& renderInfo, const SurfaceItem& item,
             reportFailure(state, *variant);
         else
             for (std::size_t role = 0; role < item.passes.size(); ++role)
-                if (item.passes[role] != NoPass &&
-                    (role == LightRole ? variant->getKey().kit : variant->getKey().output))
+                if (item.passes[role] != NoPass && item.wants(role))
                     _passes[item.passes[role]].pass->apply(renderInfo, *variant, leaf,
                                                            item.numbers[role]);
     }

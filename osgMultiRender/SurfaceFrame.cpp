@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace osgMultiRender
@@ -24,7 +25,8 @@ bool byOrder(const SurfaceItem& a, const SurfaceItem& b)
         return a.diverted;
     // Those of an output pass follow each other.
     if (a.passes != b.passes)
-        return std::make_pair(a.passes[1], a.passes[0]) < std::make_pair(b.passes[1], b.passes[0]);
+        return std::tie(a.passes[1], a.passes[0], a.passes[2]) <
+               std::tie(b.passes[1], b.passes[0], b.passes[2]);
     return a.order < b.order;
 }
 
@@ -103,14 +105,17 @@ void SurfaceFrame::classifyAll(osg::RenderInfo& renderInfo)
     {
         Surface* surface = nullptr;
         const osgUtil::StateGraph* graph = nullptr;
+        SurfacePasses passes = NoPasses;
+        SurfaceLook* look = nullptr;
         for (std::size_t i = 0; i < _bins[bin].size(); ++i)
         {
             osgUtil::RenderLeaf& leaf = *_bins[bin][i];
-            if (leaf._parent != graph) // leaves of one StateGraph follow each other
-            {
-                graph = leaf._parent;
-                surface = &surfaceOf(renderInfo, graph);
-            }
+            const bool isNew = leaf._parent != graph; // leaves of one StateGraph follow each other
+            if (isNew)
+                passes = passesOf(graph = leaf._parent);
+            SurfaceLook* const itsLook = lookOf(leaf, passes);
+            if (isNew || itsLook != look)
+                surface = &surfaceOf(renderInfo, graph, look = itsLook);
             resolve(*renderInfo.getState(), *surface, leaf, _isOrdered[bin], _items[bin][i]);
         }
     }

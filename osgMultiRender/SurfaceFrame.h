@@ -16,20 +16,36 @@ namespace osgMultiRender
 {
 
 /// The passes of a leaf in a SurfaceFrame, by role: their places, or NoPass.
-using SurfacePasses = std::array<std::uint16_t, 2>;
+using SurfacePasses = std::array<std::uint16_t, 3>;
 constexpr std::uint16_t NoPass = 0xffff;
+constexpr SurfacePasses NoPasses = {NoPass, NoPass, NoPass};
 
 /// One leaf of the subgraph and what draws it.
 struct SurfaceItem
 {
     osgUtil::RenderLeaf* leaf = nullptr;
     SurfaceVariant* variant = nullptr;      ///< Null: the leaf keeps its own state.
-    std::array<std::uint32_t, 2> numbers{}; ///< The passes' numbers of the leaf, by role.
-    SurfacePasses passes{NoPass, NoPass};
+    std::array<std::uint32_t, 3> numbers{}; ///< The passes' numbers of the leaf, by role.
+    SurfacePasses passes = NoPasses;
     bool diverted = false;                 ///< Drawn through SurfacePass::divert().
     std::uint32_t order = 0;               ///< Of the variant, by first appearance in the frame.
     const SurfaceState* state = nullptr;   ///< Of the leaf; null below OpenGL 3.3.
     const std::string* instance = nullptr; ///< GLSL of its VertexSnippet; null for none.
+    bool hasLook = false;                  ///< Drawn with a SurfaceLook.
+
+    /// Whether the pass of the role has a part in its variant.
+    bool wants(std::size_t role) const
+    {
+        switch (static_cast<SurfaceRole>(role))
+        {
+        case SurfaceRole::Light:
+            return variant->getKey().kit;
+        case SurfaceRole::Output:
+            return variant->getKey().output;
+        default:
+            return hasLook;
+        }
+    }
 };
 
 /// The subgraph of a SurfaceGroup in one view of one frame: collected in cull, drawn by proxies.
@@ -130,18 +146,22 @@ private:
     };
     static constexpr std::size_t LightRole = static_cast<std::size_t>(SurfaceRole::Light);
     static constexpr std::size_t OutputRole = static_cast<std::size_t>(SurfaceRole::Output);
+    static constexpr std::size_t LookRole = static_cast<std::size_t>(SurfaceRole::Surface);
     /// What the leaves of one StateGraph have in common.
     struct Surface
     {
-        SurfacePasses passes{NoPass, NoPass};
-        const osg::Program* program = nullptr; ///< The model's own.
+        SurfacePasses passes = NoPasses;
+        SurfaceLook* look = nullptr;           ///< Of the pass with SurfaceRole::Surface.
+        const osg::Program* program = nullptr; ///< The model's own, or that of the look.
         const std::string* instance = nullptr; ///< GLSL of a VertexSnippet.
         const SurfaceState* state = nullptr;
         SurfaceKey key;                    ///< With the kit bits of the last leaf.
         SurfaceVariant* variant = nullptr; ///< Of that key; null before it is looked up.
         std::pair<const std::string, unsigned int>* beyond = nullptr; ///< In _beyond.
     };
-    Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph);
+    Surface& surfaceOf(osg::RenderInfo& renderInfo, const osgUtil::StateGraph* graph,
+                       SurfaceLook* look);
+    SurfaceLook* lookOf(const osgUtil::RenderLeaf& leaf, const SurfacePasses& passes);
     SurfacePasses passesOf(const osgUtil::StateGraph* graph) const;
     LightingMode lightingOf(const SurfacePasses& passes) const;
     const osg::StateSet* mergeUnder(const SurfacePasses& passes);
@@ -157,8 +177,7 @@ private:
     void withholdLights();
     void sortItems();
     const SurfaceState& stateOf(const osgUtil::StateGraph* graph);
-    SurfaceVariant* variantOf(const SurfaceKey& key, const SurfacePasses& passes,
-                              const osg::Program* program, const std::string* instance);
+    SurfaceVariant* variantOf(const SurfaceKey& key, const Surface& surface);
     SurfaceVariant* wrapperOf(const osg::Program& program);
     void reportFailure(osg::State& state, SurfaceVariant& variant);
     void draw(osg::RenderInfo& renderInfo, const SurfaceItem* items, std::size_t count);
@@ -188,7 +207,7 @@ private:
     float _languageVersion = 0.0f;
     GLLights _lights{};
     std::unordered_map<const osgUtil::StateGraph*, SurfaceState> _states;
-    std::unordered_map<const osgUtil::StateGraph*, Surface> _surfaces;
+    std::map<std::pair<const osgUtil::StateGraph*, SurfaceLook*>, Surface> _surfaces;
     std::map<SurfacePasses,
              std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
         _variants;

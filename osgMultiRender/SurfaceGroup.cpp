@@ -96,6 +96,11 @@ SurfacePass::~SurfacePass() = default;
 
 void SurfacePass::cull(osgUtil::CullVisitor&, SurfaceGroup&, const osg::StateSet*) {}
 
+SurfaceLook* SurfacePass::look(const SurfaceState&, const osgUtil::RenderLeaf&)
+{
+    return nullptr;
+}
+
 void SurfacePass::drawBefore(osg::RenderInfo&, SurfaceFrame&) {}
 
 bool SurfacePass::diverts(const SurfaceItem&) const

@@ -31,8 +31,9 @@ struct SurfaceItem;
 /// counts; siblings inside of another kit each have theirs.
 enum class SurfaceRole : std::uint8_t
 {
-    Light, ///< How surfaces are lit: SurfaceKey::kit.
-    Output ///< What is written beside and after the colour: SurfaceKey::output.
+    Light,  ///< How surfaces are lit: SurfaceKey::kit.
+    Output, ///< What is written beside and after the colour: SurfaceKey::output.
+    Surface ///< What surfaces look like instead of their own look: look().
 };
 
 /// A kit's part in the draw of one view of one frame. Lives in the draw thread.
@@ -66,6 +67,10 @@ public:
     virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, bool ordered,
                           SurfaceKey& key, std::uint32_t& number) = 0;
     virtual bool classifiesUnlit() const { return false; }
+    /// With SurfaceRole::Surface: what the leaf looks like instead of its own look; null keeps that.
+    /// Not asked for leaves whose program places their vertices or is PROTECTED. What is returned
+    /// lives until drawn().
+    virtual SurfaceLook* look(const SurfaceState& state, const osgUtil::RenderLeaf& leaf);
     /// After the last classify().
     virtual void end(osg::RenderInfo& renderInfo) = 0;
     /// After end(), before the first leaf is drawn: what is drawn elsewhere first. Leaves the
@@ -86,7 +91,7 @@ public:
     /// none.
     virtual const osg::StateSet* startRun() = 0;
     /// Called with the variant's program in use, before the leaf is drawn, where the key has bits
-    /// of the pass.
+    /// of the pass or the look is its.
     virtual void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
                        const osgUtil::RenderLeaf& leaf, std::uint32_t number) = 0;
     virtual void fillPlan(Plan& plan) const = 0;

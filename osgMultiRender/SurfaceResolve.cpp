@@ -16,7 +16,7 @@ namespace osgMultiRender
 
 SurfacePasses SurfaceFrame::passesOf(const osgUtil::StateGraph* graph) const
 {
-    SurfacePasses passes{NoPass, NoPass};
+    SurfacePasses passes = NoPasses;
     passes[_passes.front().role()] = 0;
     for (const osgUtil::StateGraph* g = graph; g && !_scopes.empty(); g = g->_parent)
         if (const auto found = _scopes.find(g->getStateSet()); found != _scopes.end())
@@ -54,27 +54,29 @@ SurfaceSnippet SurfaceFrame::makeSnippet(const SurfaceKey& key, const SurfacePas
     return snippet;
 }
 
-SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const SurfacePasses& passes,
-                                        const osg::Program* program, const std::string* instance)
+SurfaceVariant* SurfaceFrame::variantOf(const SurfaceKey& key, const Surface& surface)
 {
-    osg::ref_ptr<SurfaceVariant>& variant = _variants[passes][key];
+    osg::ref_ptr<SurfaceVariant>& variant = _variants[surface.passes][key];
     if (!variant)
     {
         std::string kit = glslVersionLine(_languageVersion);
-        for (const std::uint16_t place : passes)
+        for (const std::uint16_t place : surface.passes)
             kit += place == NoPass ? "-" : _passes[place].group->className();
         bool made = false;
-        variant = SurfaceVariantCache::instance().get(
-            kit, key,
-            [&]
-            {
-                const SurfaceSnippet snippet = makeSnippet(key, passes, program);
-                return program ? new SurfaceVariant(key, snippet, *program)
-                               : new SurfaceVariant(key, snippet, instance ? *instance : "",
-                                                    _languageVersion);
-            },
-            made);
-        _compiled += made;
+        const auto make = [&]
+        {
+            const SurfaceSnippet snippet = makeSnippet(key, surface.passes, surface.program);
+            if (surface.look)
+                return new SurfaceVariant(key, snippet, *surface.look);
+            return surface.program
+                       ? new SurfaceVariant(key, snippet, *surface.program)
+                       : new SurfaceVariant(key, snippet, surface.instance ? *surface.instance : "",
+                                            _languageVersion);
+        };
+        variant = surface.look ? surface.look->get(kit, key, make, made)
+                               : SurfaceVariantCache::instance().get(kit, key, make, made);
+        // The program of a look is linked by its pass, which counts it.
+        _compiled += made && (!surface.look || key.output);
     }
     return variant.get();
 }
@@ -88,20 +90,29 @@ SurfaceVariant* SurfaceFrame::wrapperOf(const osg::Program& program)
     {
         SurfaceKey key;
         key.program = contentOf(program);
-        found->second = variantOf(key, {NoPass, NoPass}, &program, nullptr);
+        Surface alone;
+        alone.program = &program;
+        found->second = variantOf(key, alone);
     }
     return found->second;
 }
 
 SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
-                                               const osgUtil::StateGraph* graph)
+                                               const osgUtil::StateGraph* graph, SurfaceLook* look)
 {
-    const auto [found, isNew] = _surfaces.try_emplace(graph);
+    const auto [found, isNew] = _surfaces.try_emplace({graph, look});
     Surface& surface = found->second;
     if (!isNew)
         return surface;
     surface.state = &stateOf(graph);
     surface.passes = passesOf(graph);
+    if (look)
+    {
+        surface.look = look;
+        surface.program = look->getProgram();
+        surface.key.program = look->getContent();
+        return surface;
+    }
     std::string beyond = makeSurfaceKey(*surface.state, lightingOf(surface.passes), _lights,
                                         renderInfo.getContextID(), surface.key);
     auto* program = static_cast<const osg::Program*>(surface.state->get(SurfaceState::Program));
@@ -134,6 +145,18 @@ SurfaceFrame::Surface& SurfaceFrame::surfaceOf(osg::RenderInfo& renderInfo,
     return surface;
 }
 
+/// Null where the leaf keeps its own look.
+SurfaceLook* SurfaceFrame::lookOf(const osgUtil::RenderLeaf& leaf, const SurfacePasses& passes)
+{
+    if (passes[LookRole] == NoPass)
+        return nullptr;
+    const SurfaceState& state = stateOf(leaf._parent);
+    if (state.isProgramProtected() ||
+        dynamic_cast<const VertexSnippet*>(state.get(SurfaceState::Program)))
+        return nullptr;
+    return _passes[passes[LookRole]].pass->look(state, leaf);
+}
+
 void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderLeaf& leaf,
                            bool ordered, SurfaceItem& item)
 {
@@ -141,6 +164,7 @@ void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderL
     item.state = surface.state;
     item.passes = surface.passes;
     item.instance = surface.instance;
+    item.hasLook = surface.look;
     if (surface.beyond)
     {
         ++surface.beyond->second;
@@ -152,14 +176,14 @@ void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderL
     if (key.kit != kit || key.output != output)
         surface.variant = nullptr;
     if (!surface.variant)
-        surface.variant = variantOf(key, surface.passes, surface.program, surface.instance);
+        surface.variant = variantOf(key, surface);
     item.variant = surface.variant;
     if (!key.output || links(state, *item.variant, surface.passes))
         return;
     // Better the look alone than neither.
     _failedOutputs.insert(item.variant);
     key.output = 0;
-    surface.variant = variantOf(key, surface.passes, surface.program, surface.instance);
+    surface.variant = variantOf(key, surface);
     item.variant = surface.variant;
 }
 
@@ -168,7 +192,7 @@ void SurfaceFrame::classify(const Surface& surface, const osgUtil::RenderLeaf& l
 {
     for (const std::uint16_t place : surface.passes)
     {
-        if (place == NoPass)
+        if (place == NoPass || _passes[place].role() == LookRole)
             continue;
         const Pass& pass = _passes[place];
         const bool isLit = key.lighting == LightingMode::Pixel || pass.pass->classifiesUnlit();

@@ -78,6 +78,20 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
         finish(snippet);
 }
 
+SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
+                               const SurfaceLook& look)
+    : osg::Referenced(true), _key(key), _stateSet(new osg::StateSet)
+{
+    if (snippet.fragment.empty() && snippet.statements.empty())
+        _program = const_cast<osg::Program*>(look.getProgram());
+    else
+        _program = wrapProgram(*look.getProgram(), {snippet.fragment, snippet.statements}, _error);
+    if (!_program)
+        return;
+    _stateSet->merge(*look.getStateSet());
+    finish(snippet);
+}
+
 void SurfaceVariant::finish(const SurfaceSnippet& snippet)
 {
     for (const auto& [sampler, unit] : snippet.samplers)
@@ -89,6 +103,35 @@ void SurfaceVariant::finish(const SurfaceSnippet& snippet)
     _stateSet->setThreadSafeRefUnref(true);
     _stateSet->setAttributeAndModes(_program,
                                     osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE);
+}
+
+SurfaceLook::SurfaceLook(osg::Program* program, osg::StateSet* stateSet)
+    : osg::Referenced(true), _program(program), _stateSet(stateSet), _content(contentOf(*program))
+{
+    _program->setThreadSafeRefUnref(true);
+    _stateSet->setThreadSafeRefUnref(true);
+}
+
+void SurfaceLook::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _program->resizeGLObjectBuffers(maxSize);
+    _stateSet->resizeGLObjectBuffers(maxSize);
+    for (auto& [kit, variants] : _variants)
+        for (auto& [key, variant] : variants)
+            if (variant->getProgram())
+                const_cast<osg::Program*>(variant->getProgram())->resizeGLObjectBuffers(maxSize);
+}
+
+void SurfaceLook::releaseGLObjects(osg::State* state) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _program->releaseGLObjects(state);
+    _stateSet->releaseGLObjects(state);
+    for (const auto& [kit, variants] : _variants)
+        for (const auto& [key, variant] : variants)
+            if (variant->getProgram())
+                variant->getProgram()->releaseGLObjects(state);
 }
 
 namespace

@@ -34,6 +34,8 @@ struct SurfaceSnippet
     SurfaceSnippet& operator+=(const SurfaceSnippet& other);
 };
 
+class SurfaceLook;
+
 /// A program for all surfaces with one key, and the StateSet that puts it over a leaf's own state.
 class OSGMULTIRENDER_EXPORT SurfaceVariant : public osg::Referenced
 {
@@ -54,6 +56,9 @@ public:
     /// Why there is no Program.
     const std::string& getError() const { return _error; }
 
+    /// A look, as it is where the snippet adds nothing.
+    SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet, const SurfaceLook& look);
+
     /// Set by the draw thread when the program did not link; its leaves then show the fixed
     /// function.
     std::atomic<bool> failed{false};
@@ -70,6 +75,50 @@ private:
     osg::ref_ptr<osg::Program> _program;
     std::string _error;
     osg::ref_ptr<osg::StateSet> _stateSet;
+};
+
+/// What leaves look like instead of their own look: a complete program with the state it needs.
+///
+/// Keeps what variants are made of it, so that they live as long as it does. Thread safe.
+class OSGMULTIRENDER_EXPORT SurfaceLook : public osg::Referenced
+{
+public:
+    /// `program` is of GLSL 3.30 (compatibility) or more; `stateSet` has its uniforms and textures.
+    /// Both may not be null.
+    SurfaceLook(osg::Program* program, osg::StateSet* stateSet);
+
+    const osg::Program* getProgram() const { return _program.get(); }
+    const osg::StateSet* getStateSet() const { return _stateSet.get(); }
+    std::uint64_t getContent() const { return _content; } ///< See contentOf().
+
+    /// As SurfaceVariantCache::get().
+    template <class Make>
+    osg::ref_ptr<SurfaceVariant> get(const std::string& kit, const SurfaceKey& key, Make make,
+                                     bool& made)
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        osg::ref_ptr<SurfaceVariant>& variant = _variants[kit][key];
+        made = !variant;
+        if (made)
+            variant = make();
+        return variant;
+    }
+
+    void resizeGLObjectBuffers(unsigned int maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
+protected:
+    ~SurfaceLook() override = default;
+
+    osg::ref_ptr<osg::Program> _program;
+    osg::ref_ptr<osg::StateSet> _stateSet;
+
+private:
+    std::uint64_t _content;
+    mutable std::mutex _mutex;
+    std::unordered_map<std::string,
+                       std::unordered_map<SurfaceKey, osg::ref_ptr<SurfaceVariant>, SurfaceKeyHash>>
+        _variants;
 };
 
 /// The programs of all kits in the process. Thread safe.

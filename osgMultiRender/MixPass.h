@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// A MixedScene's part in the draw of one view of one frame. Not installed.
+#pragma once
+
+#include <osgMultiRender/MixPrograms.h>
+#include <osgMultiRender/MixState.h>
+#include <osgMultiRender/SurfaceGroup.h>
+
+#include <osg/observer_ptr>
+
+namespace osgMultiRender
+{
+
+/// What the views of a scene share.
+struct MixResources
+{
+    MixPrograms programs;
+    std::mutex mutex;
+    std::map<unsigned int, std::vector<osg::ref_ptr<MixState>>> free; ///< By context.
+};
+
+class MixPass : public SurfacePass
+{
+public:
+    /// `toScene` leads from the key points to the coordinates of the scene.
+    MixPass(std::shared_ptr<MixResources> resources, std::shared_ptr<const MixSnapshot> snapshot,
+            const osg::Matrixd& toScene);
+
+    SurfaceRole getRole() const override { return SurfaceRole::Surface; }
+    void cull(osgUtil::CullVisitor& visitor, SurfaceGroup& group,
+              const osg::StateSet* scope) override;
+    void begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame) override;
+    void classify(const SurfaceState&, const osgUtil::RenderLeaf&, bool, SurfaceKey&,
+                  std::uint32_t&) override
+    {
+    }
+    SurfaceLook* look(const SurfaceState& state, const osgUtil::RenderLeaf& leaf) override;
+    void end(osg::RenderInfo& renderInfo) override;
+    void drawn(osg::RenderInfo& renderInfo) override;
+    SurfaceSnippet makeSnippet(const SurfaceKey&) const override { return {}; }
+    const osg::StateSet* startRun() override;
+    void apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
+               const osgUtil::RenderLeaf& leaf, std::uint32_t number) override;
+    void fillPlan(Plan& plan) const override;
+
+private:
+    struct Shown
+    {
+        osg::ref_ptr<MixProgram> program; ///< Of exactly this set; null: there is none yet.
+        unsigned int leaves = 0;
+    };
+
+    MixSet setOf(const osgUtil::RenderLeaf& leaf) const;
+    MixWeights weightsOf(const MixSnapshot& snapshot) const;
+    std::string nameOf(const MixSet& set) const;
+
+    std::shared_ptr<MixResources> _resources;
+    std::shared_ptr<const MixSnapshot> _snapshot;
+    osg::Matrixd _keysToEye, _eyeToKeys;
+    bool _isCulled = false;
+    unsigned int _contextID = 0;
+    MixPrograms::Frame _frame;
+    MixWeights _weights;
+    osg::ref_ptr<MixState> _state;
+    std::map<MixSet, Shown> _sets;
+    const osg::Viewport* _viewport = nullptr; ///< As the program has it.
+    const SurfaceVariant* _variant = nullptr;
+};
+
+} // namespace osgMultiRender

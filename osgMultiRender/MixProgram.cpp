@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include <osgMultiRender/MixProgram.h>
+
+#include <osgMultiRender/MixState.h>
+#include <osgMultiRender/MixTexture.h>
+
+#include <osg/Program>
+#include <osg/Shader>
+
+#include <algorithm>
+
+namespace osgMultiRender
+{
+
+namespace
+{
+
+osg::Program* makeProgram(const Merged& merged, const MixSet& set)
+{
+    auto* program = new osg::Program;
+    std::string name = set.isWhole ? "only" : "mix of";
+    for (const MergedRendering& rendering : merged.renderings)
+        if (rendering.included)
+            name += " " + rendering.name;
+    program->setName(name);
+    for (const auto type : {osg::Shader::VERTEX, osg::Shader::FRAGMENT})
+    {
+        const bool isVertex = type == osg::Shader::VERTEX;
+        auto* shader = new osg::Shader(type, isVertex ? merged.vertex : merged.fragment);
+        shader->setName(name + (isVertex ? ".vert" : ".frag"));
+        program->addShader(shader);
+    }
+    for (const MergedUniform& uniform : merged.uniforms)
+        if (uniform.type == "block" && uniform.binding >= 0)
+            program->addBindUniformBlock(uniform.merged, GLuint(uniform.binding));
+    return program;
+}
+
+/// Puts values into all elements; what is missing stays.
+void setValues(osg::Uniform& uniform, const std::vector<double>& values)
+{
+    const auto copy = [&](auto* array)
+    {
+        if (!array)
+            return false;
+        using Number = typename std::decay_t<decltype(*array)>::ElementDataType;
+        const std::size_t size = std::min<std::size_t>(values.size(), array->size());
+        for (std::size_t i = 0; i < size; ++i)
+            (*array)[i] = static_cast<Number>(values[i]);
+        return true;
+    };
+    if (copy(uniform.getFloatArray()) || copy(uniform.getIntArray()) ||
+        copy(uniform.getUIntArray()) || copy(uniform.getDoubleArray()))
+        uniform.dirty();
+}
+
+/// GLSL behind mix.glsl: an entry's slot, the position of the fragment, what is left to show.
+std::string weightsOf(const MixSet& set)
+{
+    if (set.isWhole)
+        return "float osgmr_weight(int rendering)\n{\n    return 1.0;\n}\n";
+    std::string slots;
+    for (const MixSet::Member& member : set.members)
+        slots += (slots.empty() ? "" : ", ") + std::to_string(member.slot);
+    const std::string count = "[" + std::to_string(set.members.size()) + "]";
+    return "#define osgmr_weight osgmr_slotWeight\n" + MixState::getSource() +
+           "#undef osgmr_weight\n"
+           "uniform vec4 osgmr_mixViewport; // place; 2 / size\n"
+           "uniform bool osgmr_mixTransparent;\n"
+           "const int osgmr_slots" +
+           count + " = int" + count + "(" + slots +
+           ");\n"
+           "void osgmr_mixBegin()\n{\n"
+           "    vec3 place = vec3((gl_FragCoord.xy - osgmr_mixViewport.xy) * "
+           "osgmr_mixViewport.zw,\n"
+           "                      2.0 * (gl_FragCoord.z - gl_DepthRange.near) / "
+           "gl_DepthRange.diff);\n"
+           "    vec4 clip = vec4(place - 1.0, 1.0) / gl_FragCoord.w;\n"
+           "    osgmr_mixAt((gl_ProjectionMatrixInverse * clip).xyz);\n"
+           "}\n"
+           "float osgmr_weight(int rendering)\n{\n"
+           "    return osgmr_slotWeight(osgmr_slots[rendering]);\n"
+           "}\n"
+           "vec4 osgmr_mixEnd(vec4 sum)\n{\n"
+           "    vec4 color = osgmr_mixed(sum);\n"
+           "    if (osgmr_mixTransparent && color.a == 0.0)\n"
+           "        discard;\n"
+           "    return color;\n"
+           "}\n";
+}
+
+} // namespace
+
+bool MixSet::has(std::uint16_t slot) const
+{
+    return std::any_of(members.begin(), members.end(),
+                       [&](const Member& member) { return member.slot == slot; });
+}
+
+Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits)
+{
+    std::vector<MergeEntry> entries;
+    MergeOptions options;
+    for (const MixSet::Member& member : set.members)
+    {
+        if (snapshot.rules.base == member.slot)
+            options.base = entries.size();
+        const MixSlot* slot = member.slot < snapshot.slots.size() ? &snapshot.slots[member.slot]
+                                                                  : nullptr;
+        const bool isThere = slot && slot->id == member.id;
+        // Earlier ones are more important: they show nothing new when another one comes.
+        entries.push_back({isThere ? slot->rendering.get() : nullptr,
+                           1.0 / (1.0 + double(entries.size()))});
+    }
+    options.limits = limits;
+    options.weights = weightsOf(set);
+    if (!set.isWhole)
+    {
+        options.begin = "osgmr_mixBegin();";
+        options.end = "osgmr_mixEnd";
+        options.outside = MergeOutside::Transparent;
+    }
+    // The model's own and those of the kits.
+    for (unsigned int unit = 0; unit <= 16; ++unit)
+        options.occupiedUnits.push_back(unit);
+    return mergeRenderings(entries, options);
+}
+
+MixProgram::MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snapshot)
+    : SurfaceLook(makeProgram(merged, set), new osg::StateSet), _set(set),
+      _merged(std::move(merged))
+{
+    _stateSet->setDataVariance(osg::Object::DYNAMIC);
+    addUniforms(snapshot);
+    addTextures(snapshot);
+    update(snapshot);
+}
+
+bool MixProgram::covers(std::uint16_t slot) const
+{
+    for (std::size_t i = 0; i < _set.members.size(); ++i)
+        if (_set.members[i].slot == slot)
+            return _merged.renderings[i].included;
+    return false;
+}
+
+void MixProgram::addUniforms(const MixSnapshot& snapshot)
+{
+    for (const MergedUniform& merged : _merged.uniforms)
+    {
+        const osg::Uniform::Type type = osg::Uniform::getTypeId(merged.type);
+        if (type == osg::Uniform::UNDEFINED || merged.merged.compare(0, 4, "osg_") == 0)
+            continue; // blocks and structs are the application's, osg_ is OSG's
+        osg::ref_ptr<osg::Uniform> uniform =
+            new osg::Uniform(type, merged.merged, std::max(1, merged.arraySize));
+        const std::uint16_t slot = _set.members[merged.rendering].slot;
+        const RenderingUniform* own =
+            snapshot.slots[slot].rendering->findUniform(merged.name);
+        if (!merged.units.empty())
+            setValues(*uniform, std::vector<double>(merged.units.begin(), merged.units.end()));
+        else
+            _values.push_back(
+                {uniform, slot, merged.name, own ? own->values : std::vector<double>()});
+        _stateSet->addUniform(uniform);
+    }
+}
+
+void MixProgram::addTextures(const MixSnapshot& snapshot)
+{
+    for (const MergedTexture& texture : _merged.textures)
+    {
+        const MixSlot& slot = snapshot.slots[_set.members[texture.rendering].slot];
+        const RenderingTexture* own =
+            texture.own ? slot.rendering->findTexture(texture.ownUnit) : nullptr;
+        // Below the model's own textures, above nothing: a model without one is white.
+        _stateSet->setTextureAttribute(texture.unit, own ? readTexture(*own) : whiteTexture(),
+                                       own ? osg::StateAttribute::OVERRIDE
+                                           : osg::StateAttribute::ON);
+    }
+}
+
+void MixProgram::update(const MixSnapshot& snapshot)
+{
+    if (_uniformRevision == snapshot.uniformRevision)
+        return;
+    _uniformRevision = snapshot.uniformRevision;
+    for (const Value& value : _values)
+    {
+        const std::vector<double>* values = &value.ownValues;
+        if (value.slot < snapshot.slots.size())
+        {
+            const MixUniforms& given = snapshot.slots[value.slot].uniforms;
+            if (const auto found = given.find(value.name); found != given.end())
+                values = &found->second;
+        }
+        setValues(*value.uniform, *values);
+    }
+}
+
+} // namespace osgMultiRender

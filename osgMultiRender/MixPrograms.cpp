@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include <osgMultiRender/MixPrograms.h>
+
+#include <osgMultiRender/MixTrial.h>
+#include <osgMultiRender/ProgramWrap.h>
+
+#include <osg/Notify>
+#include <osg/Timer>
+
+#include <algorithm>
+
+namespace osgMultiRender
+{
+
+namespace
+{
+
+/// The errors of a merge about one entry, or about all.
+std::string errorsOf(const Merged& merged)
+{
+    std::string text;
+    for (const MergeMessage& message : merged.messages)
+        if (message.severity == MergeSeverity::Error)
+            text += (text.empty() ? "" : "\n") + message.text;
+    return text;
+}
+
+std::string errorsOf(const Rendering& rendering)
+{
+    std::string text;
+    for (const RenderingMessage& message : rendering.messages)
+        if (message.error)
+            text += (text.empty() ? "" : "\n") + message.text;
+    return text.empty() && rendering.shaders.empty() ? rendering.name + ": it has no shader" : text;
+}
+
+double millisecondsSince(osg::Timer_t start)
+{
+    return osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
+}
+
+} // namespace
+
+MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& snapshot,
+                                      osg::State& state)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    ++_frame;
+    if (!_limits)
+        _limits = limitsOf(state);
+    _quietFrames = _mixRevision == snapshot->mixRevision ? _quietFrames + 1 : 0;
+    _mixRevision = snapshot->mixRevision;
+    tryNew(*snapshot, state);
+    for (;;)
+    {
+        const MixSet set = allOf(*snapshot);
+        if (set.members.empty())
+        {
+            _all = nullptr;
+            break;
+        }
+        if (_all && _all->getSet() == set)
+            break;
+        const bool showsAny =
+            _all && std::any_of(set.members.begin(), set.members.end(),
+                                [&](const MixSet::Member& m) { return _all->covers(m.slot); });
+        osg::ref_ptr<MixProgram> made = build(set, snapshot, state, !showsAny);
+        if (made)
+            _all = made;
+        if (made || !_broken.count(set))
+            break;
+        // Each alone is fine: the last one is what has changed.
+        fail(snapshot->slots[set.members.back().slot],
+             "the driver does not link it together with the others");
+    }
+    forget(*snapshot);
+    Frame frame;
+    frame.isSettled = _quietFrames >= snapshot->settleFrames;
+    fillFrame(*snapshot, frame);
+    return frame;
+}
+
+void MixPrograms::fillFrame(const MixSnapshot& snapshot, Frame& frame) const
+{
+    frame.all = _all;
+    frame.isShown.assign(snapshot.slots.size(), false);
+    for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
+    {
+        const MixSlot& slot = snapshot.slots[i];
+        if (!slot.rendering)
+            continue;
+        const auto number = std::uint16_t(i);
+        const auto failed = _failed.find(slot.id);
+        frame.isShown[i] = _all && _all->covers(number) && failed == _failed.end();
+        if (frame.isShown[i])
+            continue;
+        std::string why = failed != _failed.end() ? failed->second : "its program is being made";
+        if (_all && failed == _failed.end())
+            for (const MergeMessage& message : _all->getMerged().messages)
+                if (message.severity == MergeSeverity::Error &&
+                    message.rendering < _all->getSet().members.size() &&
+                    _all->getSet().members[message.rendering].slot == number)
+                    why = message.text;
+        frame.leftOut.emplace_back(number, why);
+    }
+    if (_all)
+    {
+        _all->lastUsed = _frame;
+        _all->update(snapshot);
+    }
+}
+
+/// Compiles and links each new rendering alone, so that what is wrong is said of it alone.
+void MixPrograms::tryNew(const MixSnapshot& snapshot, osg::State& state)
+{
+    for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
+    {
+        const MixSlot& slot = snapshot.slots[i];
+        if (!slot.rendering || !_tried.insert(slot.id).second)
+            continue;
+        ++_counts.tried;
+        if (!slot.rendering->ok())
+        {
+            fail(slot, errorsOf(*slot.rendering));
+            continue;
+        }
+        const Merged alone = mergeSet({{{std::uint16_t(i), slot.id}}, true}, snapshot, *_limits);
+        const std::string cause = alone.ok ? tryProgram(alone, state) : errorsOf(alone);
+        if (!cause.empty())
+            fail(slot, cause);
+    }
+}
+
+void MixPrograms::fail(const MixSlot& slot, const std::string& cause)
+{
+    _failed[slot.id] = cause;
+    OSG_WARN << "osgMultiRender::MixedScene: rendering '" << slot.rendering->name
+             << "' is left out: " << cause << std::endl;
+}
+
+MixSet MixPrograms::allOf(const MixSnapshot& snapshot) const
+{
+    MixSet set;
+    for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
+        if (snapshot.slots[i].rendering && !_failed.count(snapshot.slots[i].id))
+            set.members.push_back({std::uint16_t(i), snapshot.slots[i].id});
+    return set;
+}
+
+osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set, const MixSnapshot& snapshot)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto found = _programs.find(set);
+    if (found == _programs.end())
+        return nullptr;
+    found->second->lastUsed = _frame;
+    found->second->update(snapshot);
+    return found->second;
+}
+
+osg::ref_ptr<MixProgram> MixPrograms::make(const MixSet& set,
+                                           const std::shared_ptr<const MixSnapshot>& snapshot,
+                                           osg::State& state, bool waits)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return build(set, snapshot, state, waits);
+}
+
+/// Null where it is not ready, or broken.
+osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
+                                            const std::shared_ptr<const MixSnapshot>& snapshot,
+                                            osg::State& state, bool waits)
+{
+    if (const auto found = _programs.find(set); found != _programs.end())
+        return found->second;
+    if (_broken.count(set))
+        return nullptr;
+    const bool isRunning = _job && _job->merged.wait_for(std::chrono::seconds(0)) !=
+                                       std::future_status::ready;
+    if (_job && !(_job->set == set))
+    {
+        if (isRunning && !waits)
+            return nullptr; // one at a time
+        _job.reset();       // waits for it
+    }
+    if (!_job)
+        _job = Job{set, snapshot,
+                   std::async(std::launch::async, [set, snapshot, limits = *_limits]
+                              { return mergeSet(set, *snapshot, limits); })};
+    if (!waits && _job->merged.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        return nullptr;
+    Merged merged = _job->merged.get();
+    const std::shared_ptr<const MixSnapshot> from = _job->snapshot;
+    _job.reset();
+    ++_counts.merged;
+    _counts.mergeMilliseconds += merged.statistics.milliseconds;
+    osg::ref_ptr<MixProgram> program;
+    if (merged.ok)
+        program = new MixProgram(set, std::move(merged), *from);
+    if (!program || !link(*program, state))
+    {
+        _broken.insert(set);
+        return nullptr;
+    }
+    program->update(*snapshot);
+    program->lastUsed = _frame;
+    _programs[set] = program;
+    return program;
+}
+
+bool MixPrograms::link(MixProgram& program, osg::State& state)
+{
+    const osg::Timer_t start = osg::Timer::instance()->tick();
+    auto& object = const_cast<osg::Program&>(*program.getProgram());
+    object.compileGLObjects(state);
+    ++_counts.linked;
+    _counts.linkMilliseconds += millisecondsSince(start);
+    const osg::Program::PerContextProgram* linked = object.getPCP(state);
+    if (linked && linked->isLinked())
+        return true;
+    OSG_WARN << "osgMultiRender::MixedScene: the program '" << object.getName()
+             << "' does not link and is not used:\n"
+             << program.getMerged().explain(osgMultiRender::errorsOf(object, state)) << std::flush;
+    return false;
+}
+
+/// Programs of renderings that are gone, and the least recently used of too many.
+void MixPrograms::forget(const MixSnapshot& snapshot)
+{
+    const auto isGone = [&](const MixSet& set)
+    {
+        return std::any_of(set.members.begin(), set.members.end(),
+                           [&](const MixSet::Member& m)
+                           {
+                               return m.slot >= snapshot.slots.size() ||
+                                      snapshot.slots[m.slot].id != m.id;
+                           });
+    };
+    for (auto at = _programs.begin(); at != _programs.end();)
+        at = isGone(at->first) ? _programs.erase(at) : std::next(at);
+    while (_programs.size() > std::max<std::size_t>(snapshot.maxPrograms, 1))
+    {
+        auto oldest = _programs.end();
+        for (auto at = _programs.begin(); at != _programs.end(); ++at)
+            if (at->second != _all && at->second->lastUsed + 1 < _frame &&
+                (oldest == _programs.end() || at->second->lastUsed < oldest->second->lastUsed))
+                oldest = at;
+        if (oldest == _programs.end())
+            return; // all are in use
+        _programs.erase(oldest);
+        ++_counts.evicted;
+    }
+}
+
+MixPrograms::Counts MixPrograms::getCounts() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    Counts counts = _counts;
+    counts.kept = static_cast<double>(_programs.size());
+    return counts;
+}
+
+std::string MixPrograms::getSource() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _all ? _all->getMerged().vertex + "\n" + _all->getMerged().fragment : "";
+}
+
+void MixPrograms::resizeGLObjectBuffers(unsigned int maxSize)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (auto& [set, program] : _programs)
+        program->resizeGLObjectBuffers(maxSize);
+}
+
+void MixPrograms::releaseGLObjects(osg::State* state) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const auto& [set, program] : _programs)
+        program->releaseGLObjects(state);
+}
+
+} // namespace osgMultiRender

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// The programs of a MixedScene: merged, linked, kept. Not installed.
+#pragma once
+
+#include <osgMultiRender/MixProgram.h>
+
+#include <osg/State>
+
+#include <future>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+
+namespace osgMultiRender
+{
+
+/// Makes programs of sets of renderings and keeps them.
+///
+/// One program shows all renderings. When renderings change it is merged anew in a thread of its
+/// own, and the one before stays until the new one is linked, so a picture never lacks what it had.
+/// Programs of fewer renderings only save time: they are made when nothing has moved for some
+/// frames, until then the one of all stands in. Thread safe; all but the counts with the context of
+/// the state current.
+class MixPrograms
+{
+public:
+    /// What a frame draws with.
+    struct Frame
+    {
+        osg::ref_ptr<MixProgram> all; ///< Null: nothing can be shown.
+        std::vector<bool> isShown;    ///< By slot.
+        std::vector<std::pair<std::uint16_t, std::string>> leftOut; ///< Slots, and why.
+        bool isSettled = false; ///< Nothing has moved for as long as the snapshot says.
+    };
+
+    struct Counts
+    {
+        double merged = 0.0, linked = 0.0, tried = 0.0, evicted = 0.0, kept = 0.0;
+        double mergeMilliseconds = 0.0, linkMilliseconds = 0.0; ///< All together.
+    };
+
+    /// At the head of a frame. Waits for a merge only where there is nothing to show yet.
+    Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
+    /// The linked program of exactly this set, or null.
+    osg::ref_ptr<MixProgram> find(const MixSet& set, const MixSnapshot& snapshot);
+    /// Has it made; `waits`: at once.
+    osg::ref_ptr<MixProgram> make(const MixSet& set,
+                                  const std::shared_ptr<const MixSnapshot>& snapshot,
+                                  osg::State& state, bool waits);
+
+    Counts getCounts() const;
+    /// Of the program that shows all; "" before there is one.
+    std::string getSource() const;
+
+    void resizeGLObjectBuffers(unsigned int maxSize);
+    void releaseGLObjects(osg::State* state) const;
+
+private:
+    struct Job
+    {
+        MixSet set;
+        std::shared_ptr<const MixSnapshot> snapshot;
+        std::future<Merged> merged;
+    };
+
+    void tryNew(const MixSnapshot& snapshot, osg::State& state);
+    void fail(const MixSlot& slot, const std::string& cause);
+    MixSet allOf(const MixSnapshot& snapshot) const;
+    osg::ref_ptr<MixProgram> build(const MixSet& set,
+                                   const std::shared_ptr<const MixSnapshot>& snapshot,
+                                   osg::State& state, bool waits);
+    bool link(MixProgram& program, osg::State& state);
+    void forget(const MixSnapshot& snapshot);
+    void fillFrame(const MixSnapshot& snapshot, Frame& frame) const;
+
+    mutable std::mutex _mutex;
+    std::optional<MergeLimits> _limits;
+    std::map<MixSet, osg::ref_ptr<MixProgram>> _programs; ///< Linked ones.
+    osg::ref_ptr<MixProgram> _all;                        ///< The last good one.
+    std::optional<Job> _job;
+    std::set<MixSet> _broken;                    ///< Merged, but not linked.
+    std::set<std::uint64_t> _tried;              ///< Renderings.
+    std::map<std::uint64_t, std::string> _failed; ///< Of these, why.
+    std::uint64_t _frame = 0;
+    std::uint64_t _mixRevision = 0;
+    unsigned int _quietFrames = 0;
+    Counts _counts;
+};
+
+} // namespace osgMultiRender

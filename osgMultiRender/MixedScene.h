@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/MixWeights.h>
+#include <osgMultiRender/Rendering.h>
+#include <osgMultiRender/SurfaceGroup.h>
+
+#include <osg/Vec3d>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace osgMultiRender
+{
+
+struct MixResources;
+struct MixSnapshot;
+
+/// Shows its subgraph as a mix of renderings, weighted by the distance to key points.
+///
+/// Any number of complete GPU programs, built-in or imported, become one program; what a surface
+/// shows is the sum of their colours times their weights. Key points, ranges, rules and uniforms
+/// change at run time without compiling anything. When renderings are added, changed or removed
+/// the program is merged anew in a thread of its own, and the one before stays until the new one is
+/// linked; a rendering that can't be used is left out, with one warning that names its own file and
+/// line. Drawables that need fewer renderings get a program of these. Nothing of the model is
+/// changed; surfaces of PrimitiveBatches and with a PROTECTED program keep their own look.
+///
+/// All setters may be called from any thread; they count from the next cull traversal on. Where all
+/// renderings fail the model's own look shows. Requires OpenGL 3.3 (compatibility).
+class OSGMULTIRENDER_EXPORT MixedScene : public SurfaceGroup
+{
+public:
+    MixedScene();
+    MixedScene(const MixedScene& other, const osg::CopyOp& copyop = osg::CopyOp::SHALLOW_COPY);
+    META_Node(osgMultiRender, MixedScene)
+
+    /// The most renderings of a scene; how many a program can hold the context decides.
+    static constexpr unsigned int MaxRenderings = 1024;
+    static constexpr unsigned int None = ~0u;
+
+    /// Returns the number by which the rendering is known until it is removed: the lowest that is
+    /// free. None, with a warning, if there are MaxRenderings.
+    unsigned int addRendering(const Rendering& rendering, const MixRange& range = MixRange());
+    /// Puts another one in its place, which keeps range and values of uniforms: the one before
+    /// stays on screen until the new one is linked. False for a number that none has; so below.
+    bool setRendering(unsigned int number, const Rendering& rendering);
+    bool removeRendering(unsigned int number);
+    /// Those that are there, in order.
+    std::vector<unsigned int> getRenderings() const;
+    /// Null for a number that none has.
+    std::shared_ptr<const Rendering> getRendering(unsigned int number) const;
+
+    bool setRange(unsigned int number, const MixRange& range);
+    MixRange getRange(unsigned int number) const;
+
+    /// In coordinates of this node, or of the one that they are attached to.
+    void setKeyPoints(const std::vector<osg::Vec3d>& points, KeyMode mode = KeyMode::Points);
+    std::vector<osg::Vec3d> getKeyPoints() const;
+    KeyMode getKeyMode() const;
+    /// Key points move with the node, which is found anew in each frame by its first path; null:
+    /// with this one.
+    void setKeyNode(osg::Node* node);
+    osg::Node* getKeyNode() const;
+
+    /// `rules.base` is the number of a rendering or -1.
+    void setRules(const MixRules& rules);
+    MixRules getRules() const;
+    /// Whether what is missing to a sum of 1 shows what was drawn behind, instead of the background
+    /// of the rules: surfaces are blended in the order in which they are drawn.
+    void setTransparent(bool transparent);
+    bool isTransparent() const;
+
+    /// Sets a uniform of a rendering, by the name that its author gave it: all components of all
+    /// elements, 0 and 1 for bool. Those of samplers, blocks and OSG (`osg_`) are not taken.
+    bool setUniform(unsigned int number, const std::string& name,
+                    const std::vector<double>& values);
+    /// As set, else as the rendering has it; empty where neither says anything.
+    std::vector<double> getUniform(unsigned int number, const std::string& name) const;
+
+    /// Whether drawables get programs of only those renderings that they need.
+    void setPruning(bool prunes);
+    bool getPruning() const;
+    /// Such programs are made when points, ranges and rules have not changed for so many frames, so
+    /// that no movement compiles anything. 0: at once, in the frame that wants them first.
+    void setSettleFrames(unsigned int frames);
+    unsigned int getSettleFrames() const;
+    /// So many are kept, at least; those of the frame beyond that.
+    void setMaxPrograms(unsigned int programs);
+    unsigned int getMaxPrograms() const;
+
+    /// The text of the program that shows all renderings, both stages; empty before it was drawn.
+    std::string getSource() const;
+
+    void resizeGLObjectBuffers(unsigned int maxSize) override;
+    void releaseGLObjects(osg::State* state = nullptr) const override;
+
+protected:
+    ~MixedScene() override;
+
+    std::unique_ptr<SurfacePass> createPass() const override;
+
+private:
+    template <class Change> void change(Change change);
+    template <class Change> bool changeSlot(unsigned int number, Change change);
+    std::shared_ptr<const MixSnapshot> getSnapshot() const;
+    osg::Matrixd keysToScene() const;
+
+    mutable std::mutex _settings;
+    std::shared_ptr<const MixSnapshot> _snapshot;
+    std::vector<osg::Vec3d> _points;
+    osg::observer_ptr<osg::Node> _keyNode;
+    std::shared_ptr<MixResources> _resources;
+};
+
+} // namespace osgMultiRender

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/MixWeights.h>
+#include <support/HeadlessViewer.h>
+
+#include <osg/Image>
+#include <osg/Node>
+
+#include <vector>
+
+/// The single pictures of renderings, and what their mix has to be.
+///
+/// Single programs draw into float targets, each under its author's names; another one draws where
+/// each pixel's surface is. The mix is computed from these in double precision.
+class MixTruth
+{
+public:
+    MixTruth(support::HeadlessViewer& viewer, osg::Node* model, const support::CameraSpec& camera,
+             int size);
+
+    /// Adds the picture of `model` under a StateSet that has the rendering's program.
+    void add(osg::StateSet* rendering);
+
+    /// How far a picture of the mix is from the truth, pixel by pixel.
+    struct Difference
+    {
+        double worst = 0.0; ///< Of a channel, less what the position's error explains.
+        int covered = 0;    ///< Pixels with a surface.
+        int mixed = 0;      ///< Of these, with more than one weight above 0.
+        int over = 0;       ///< Of these, off by more than 1/255.
+    };
+    Difference compare(const osg::Image& picture, const osgMultiRender::KeyPoints& points,
+                       const osgMultiRender::MixWeights& weights) const;
+
+private:
+    osg::ref_ptr<osg::Image> draw(osg::StateSet* stateSet);
+
+    support::HeadlessViewer& _viewer;
+    osg::Node* _model;
+    support::CameraSpec _camera;
+    int _size;
+    osg::ref_ptr<osg::Image> _places;
+    std::vector<osg::ref_ptr<osg::Image>> _pictures;
+};
