@@ -313,8 +313,9 @@ private:
                 "    if (osgmr_total > 1.0)\n    {\n        osgmr_sum /= osgmr_total;\n    }\n";
         }
         const std::string sum = "vec4(osgmr_sum, osgmr_total)";
-        _text += "    osgmr_color = " + (_options.end.empty() ? "clamp(" + sum + ", 0.0, 1.0)"
-                                                              : _options.end + "(" + sum + ")") +
+        _text += "    osgmr_color = " +
+                 (_options.end.empty() ? "clamp(" + sum + ", 0.0, 1.0)"
+                                       : _options.end + "(" + sum + ")") +
                  ";\n";
     }
 

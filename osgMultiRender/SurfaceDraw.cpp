@@ -113,7 +113,7 @@ std::size_t SurfaceFrame::drawAs(osg::RenderInfo& renderInfo, const osg::StateSe
     forEachItem(
         [&](const SurfaceItem& item)
         {
-            const auto surface = _surfaces.find(item.leaf->_parent);
+            const auto surface = _surfaces.find({item.leaf->_parent, item.look});
             if (surface == _surfaces.end())
                 return;
             SurfaceKey key = item.variant ? item.variant->getKey() : SurfaceKey();
@@ -129,8 +129,7 @@ std::size_t SurfaceFrame::drawAs(osg::RenderInfo& renderInfo, const osg::StateSe
                 return;
             }
             items.push_back(item);
-            items.back().variant =
-                variantOf(key, item.passes, surface->second.program, surface->second.instance);
+            items.back().variant = variantOf(key, surface->second);
         });
     std::stable_sort(items.begin(), items.end(),
                      [](const SurfaceItem& a, const SurfaceItem& b)

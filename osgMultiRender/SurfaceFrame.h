@@ -31,7 +31,7 @@ struct SurfaceItem
     std::uint32_t order = 0;               ///< Of the variant, by first appearance in the frame.
     const SurfaceState* state = nullptr;   ///< Of the leaf; null below OpenGL 3.3.
     const std::string* instance = nullptr; ///< GLSL of its VertexSnippet; null for none.
-    bool hasLook = false;                  ///< Drawn with a SurfaceLook.
+    SurfaceLook* look = nullptr; ///< What draws it instead of its own state; null for none.
 
     /// Whether the pass of the role has a part in its variant.
     bool wants(std::size_t role) const
@@ -43,7 +43,7 @@ struct SurfaceItem
         case SurfaceRole::Output:
             return variant->getKey().output;
         default:
-            return hasLook;
+            return look;
         }
     }
 };

@@ -164,7 +164,7 @@ void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderL
     item.state = surface.state;
     item.passes = surface.passes;
     item.instance = surface.instance;
-    item.hasLook = surface.look;
+    item.look = surface.look;
     if (surface.beyond)
     {
         ++surface.beyond->second;
