@@ -128,10 +128,10 @@ std::vector<Rendering> interfaceCases()
         mergeCase("readsBackItsColor", "void main() { gl_FragColor = gl_Color; }",
                   "void main() { gl_FrontColor = gl_Color; gl_FrontColor.rgb *= 0.5; "
                   "gl_FrontColor.a = gl_FrontColor.r; gl_Position = ftransform(); }"),
-        mergeCase("lightsOfGL",
-                  Head + "void main() { gl_FragColor = vec4(vec3(max(dot(normalize(n), "
-                         "normalize(gl_LightSource[0].position.xyz)), 0.0)), 1.0) + "
-                         "gl_FrontMaterial.ambient; }"),
+        mergeCase("lightsOfGL", Head +
+                                    "void main() { gl_FragColor = vec4(vec3(max(dot(normalize(n), "
+                                    "normalize(gl_LightSource[0].position.xyz)), 0.0)), 1.0) + "
+                                    "gl_FrontMaterial.ambient; }"),
         mergeCase(
             "positionByMatrices",
             Head + "void main() { gl_FragColor = vec4(eye * 0.25 + 0.75, 1.0); }",
