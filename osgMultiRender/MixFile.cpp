@@ -53,7 +53,8 @@ public:
         catch (const Json::parse_error& e)
         {
             const std::size_t end = std::min(e.byte, text.size());
-            const auto line = 1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '\n');
+            const auto line =
+                1 + std::count(text.begin(), text.begin() + std::ptrdiff_t(end), '\n');
             _error = "line " + std::to_string(line) + " is no JSON; " + std::string(e.what());
             return false;
         }
@@ -173,8 +174,7 @@ private:
                     return fail(place + ".uniforms." + name, "is no number or list of numbers");
             return true;
         }
-        const bool isKnown =
-            key == "name" || key == "file" || key == "vertex" || key == "fragment";
+        const bool isKnown = key == "name" || key == "file" || key == "vertex" || key == "fragment";
         if (!isKnown)
             return fail(place + "." + key,
                         "is not known; there are name, file, vertex, fragment, range, uniforms");
@@ -300,8 +300,8 @@ std::string formatMix(const MixedScene& scene)
         json["renderings"].push_back(entry);
     }
     for (const osg::Vec3d& point : scene.getKeyPoints())
-        json["points"].push_back({formatDistance(point.x()), formatDistance(point.y()),
-                                  formatDistance(point.z())});
+        json["points"].push_back(
+            {formatDistance(point.x()), formatDistance(point.y()), formatDistance(point.z())});
     const osg::ref_ptr<MixedScene> defaults = new MixedScene;
     for (const MixOption& option : mixOptions())
     {

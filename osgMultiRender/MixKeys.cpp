@@ -78,9 +78,10 @@ void addPoint(MixedScene& scene, const osg::Vec3d& place)
 void changeNearest(MixedScene& scene, const osg::Vec3d& place, bool removes)
 {
     std::vector<osg::Vec3d> points = scene.getKeyPoints();
-    const auto nearest =
-        std::min_element(points.begin(), points.end(), [&](const auto& a, const auto& b)
-                         { return (a - place).length2() < (b - place).length2(); });
+    const auto nearest = std::min_element(points.begin(), points.end(),
+                                          [&](const auto& a, const auto& b) {
+                                              return (a - place).length2() < (b - place).length2();
+                                          });
     if (nearest == points.end())
         return;
     if (removes)

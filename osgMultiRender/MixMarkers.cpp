@@ -39,8 +39,8 @@ osg::ref_ptr<osg::Geometry> makeLine(const std::vector<osg::Vec3d>& points, cons
     line->addPrimitiveSet(
         new osg::DrawArrays(mode == KeyMode::PolylineLoop ? GL_LINE_LOOP : GL_LINE_STRIP, 0,
                             static_cast<GLsizei>(vertices->size())));
-    line->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF |
-                                                          osg::StateAttribute::OVERRIDE);
+    line->getOrCreateStateSet()->setMode(GL_LIGHTING,
+                                         osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     line->getStateSet()->setAttribute(new osg::LineWidth(2.0f));
     return line;
 }

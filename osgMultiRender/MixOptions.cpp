@@ -148,9 +148,8 @@ std::string parseBackground(MixedScene& scene, const std::string& text)
         return "'" + text + "' is none of none, transparent, #rrggbb, #rrggbbaa";
     if (text.size() == 7 && isColor)
         digits = digits << 8 | 0xffu;
-    rules.background = glm::dvec4(digits >> 24, digits >> 16 & 255u, digits >> 8 & 255u,
-                                  digits & 255u) /
-                       255.0;
+    rules.background =
+        glm::dvec4(digits >> 24, digits >> 16 & 255u, digits >> 8 & 255u, digits & 255u) / 255.0;
     scene.setTransparent(text == "transparent");
     scene.setRules(rules);
     return {};
@@ -164,7 +163,8 @@ std::string formatBackground(const MixedScene& scene)
     if (color.a <= 0.0)
         return "none";
     char text[10];
-    const auto byte = [](double x) { return unsigned(std::lround(255.0 * glm::clamp(x, 0.0, 1.0))); };
+    const auto byte = [](double x)
+    { return unsigned(std::lround(255.0 * glm::clamp(x, 0.0, 1.0))); };
     std::snprintf(text, sizeof text, "#%02x%02x%02x%02x", byte(color.r), byte(color.g),
                   byte(color.b), byte(color.a));
     return text;
@@ -180,7 +180,8 @@ std::string parseUniforms(MixedScene& scene, const std::string& text)
         if (dot == std::string::npos || equals == std::string::npos || dot > equals ||
             !parseNumbers(part.substr(equals + 1), values))
             return "'" + part + "' is no uniform; write 'rendering.uniform=1,0.5,0'";
-        const std::string owner = part.substr(0, dot), name = part.substr(dot + 1, equals - dot - 1);
+        const std::string owner = part.substr(0, dot),
+                          name = part.substr(dot + 1, equals - dot - 1);
         bool isSet = false;
         for (const unsigned int number : scene.getRenderings())
         {
@@ -262,13 +263,14 @@ const std::vector<MixOption>& mixOptions()
          parseRenderings, formatRenderings},
         {"points", "<x,y,z>;…", "Key points in coordinates of the model", parsePoints,
          formatPoints},
-        choice<KeyMode>("mode",
-                        {{"points", KeyMode::Points},
-                         {"polyline", KeyMode::Polyline},
-                         {"loop", KeyMode::PolylineLoop}},
-                        &Scene::getKeyMode, [](Scene& scene, KeyMode mode)
-                        { scene.setKeyPoints(scene.getKeyPoints(), mode); },
-                        "What lies between key points: nothing, segments, segments to a loop"),
+        choice<KeyMode>(
+            "mode",
+            {{"points", KeyMode::Points},
+             {"polyline", KeyMode::Polyline},
+             {"loop", KeyMode::PolylineLoop}},
+            &Scene::getKeyMode,
+            [](Scene& scene, KeyMode mode) { scene.setKeyPoints(scene.getKeyPoints(), mode); },
+            "What lies between key points: nothing, segments, segments to a loop"),
         choice<MixRules::Excess>(
             "excess",
             {{"clamp", MixRules::Excess::Clamp}, {"normalise", MixRules::Excess::Normalise}},
@@ -285,17 +287,17 @@ const std::vector<MixOption>& mixOptions()
          parseUniforms, formatUniforms},
         flag("pruning", &Scene::getPruning, &Scene::setPruning,
              "Programs of fewer renderings for drawables that need no more"),
-        numberOption<Scene>("settle",
-                            "Frames without movement after which such programs are made; 0: at once",
-                            0u, 100000u, &Scene::getSettleFrames, &Scene::setSettleFrames),
-        numberOption<Scene>("programs", "Programs that are kept", 1u, 4096u,
-                            &Scene::getMaxPrograms, &Scene::setMaxPrograms),
+        numberOption<Scene>(
+            "settle", "Frames without movement after which such programs are made; 0: at once", 0u,
+            100000u, &Scene::getSettleFrames, &Scene::setSettleFrames),
+        numberOption<Scene>("programs", "Programs that are kept", 1u, 4096u, &Scene::getMaxPrograms,
+                            &Scene::setMaxPrograms),
         choice<MixMarks>(
             "show",
             {{"off", MixMarks::Off}, {"points", MixMarks::Points}, {"lines", MixMarks::Lines}},
-            &Scene::getMarks, &Scene::setMarks,
-            "Key points as red spheres; with what joins them"),
-        flag("keys", &Scene::getAnswersKeys, &Scene::setAnswersKeys, "Answers to keys in osgviewer"),
+            &Scene::getMarks, &Scene::setMarks, "Key points as red spheres; with what joins them"),
+        flag("keys", &Scene::getAnswersKeys, &Scene::setAnswersKeys,
+             "Answers to keys in osgviewer"),
     };
     return options;
 }

@@ -105,12 +105,12 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
     {
         if (snapshot.rules.base == member.slot)
             options.base = entries.size();
-        const MixSlot* slot = member.slot < snapshot.slots.size() ? &snapshot.slots[member.slot]
-                                                                  : nullptr;
+        const MixSlot* slot =
+            member.slot < snapshot.slots.size() ? &snapshot.slots[member.slot] : nullptr;
         const bool isThere = slot && slot->id == member.id;
         // Earlier ones are more important: they show nothing new when another one comes.
-        entries.push_back({isThere ? slot->rendering.get() : nullptr,
-                           1.0 / (1.0 + double(entries.size()))});
+        entries.push_back(
+            {isThere ? slot->rendering.get() : nullptr, 1.0 / (1.0 + double(entries.size()))});
     }
     options.limits = limits;
     options.weights = weightsOf(set);
@@ -154,8 +154,7 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
         osg::ref_ptr<osg::Uniform> uniform =
             new osg::Uniform(type, merged.merged, std::max(1, merged.arraySize));
         const std::uint16_t slot = _set.members[merged.rendering].slot;
-        const RenderingUniform* own =
-            snapshot.slots[slot].rendering->findUniform(merged.name);
+        const RenderingUniform* own = snapshot.slots[slot].rendering->findUniform(merged.name);
         if (!merged.units.empty())
             setValues(*uniform, std::vector<double>(merged.units.begin(), merged.units.end()));
         else

@@ -190,8 +190,8 @@ osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
         return found->second;
     if (_broken.count(set))
         return nullptr;
-    const bool isRunning = _job && _job->merged.wait_for(std::chrono::seconds(0)) !=
-                                       std::future_status::ready;
+    const bool isRunning =
+        _job && _job->merged.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
     if (_job && !(_job->set == set))
     {
         if (isRunning && !waits)
@@ -245,8 +245,7 @@ void MixPrograms::forget(const MixSnapshot& snapshot)
     const auto isGone = [&](const MixSet& set)
     {
         return std::any_of(set.members.begin(), set.members.end(),
-                           [&](const MixSet::Member& m)
-                           {
+                           [&](const MixSet::Member& m) {
                                return m.slot >= snapshot.slots.size() ||
                                       snapshot.slots[m.slot].id != m.id;
                            });

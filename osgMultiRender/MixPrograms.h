@@ -28,8 +28,8 @@ public:
     /// What a frame draws with.
     struct Frame
     {
-        osg::ref_ptr<MixProgram> all; ///< Null: nothing can be shown.
-        std::vector<bool> isShown;    ///< By slot.
+        osg::ref_ptr<MixProgram> all;                               ///< Null: nothing can be shown.
+        std::vector<bool> isShown;                                  ///< By slot.
         std::vector<std::pair<std::uint16_t, std::string>> leftOut; ///< Slots, and why.
         bool isSettled = false; ///< Nothing has moved for as long as the snapshot says.
     };
@@ -79,8 +79,8 @@ private:
     std::map<MixSet, osg::ref_ptr<MixProgram>> _programs; ///< Linked ones.
     osg::ref_ptr<MixProgram> _all;                        ///< The last good one.
     std::optional<Job> _job;
-    std::set<MixSet> _broken;                    ///< Merged, but not linked.
-    std::set<std::uint64_t> _tried;              ///< Renderings.
+    std::set<MixSet> _broken;                     ///< Merged, but not linked.
+    std::set<std::uint64_t> _tried;               ///< Renderings.
     std::map<std::uint64_t, std::string> _failed; ///< Of these, why.
     std::uint64_t _frame = 0;
     std::uint64_t _mixRevision = 0;

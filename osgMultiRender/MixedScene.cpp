@@ -6,8 +6,8 @@
 #include <osgMultiRender/MixMarkers.h>
 #include <osgMultiRender/MixPass.h>
 
-#include <osg/Notify>
 #include <osg/MatrixTransform>
+#include <osg/Notify>
 #include <osgGA/EventVisitor>
 
 #include <algorithm>
@@ -338,8 +338,8 @@ osg::ref_ptr<osg::Node> MixedScene::makeMarks()
         return nullptr;
     const float size = bound.valid() ? std::max(0.012f * bound.radius(), 1e-6f) : 1.0f;
     if (!_drawnMarks || std::abs(size - _markSize) > 0.1f * size)
-        _drawnMarks = makeMixMarkers(_points, _snapshot->points->getMode(),
-                                     _marks == MixMarks::Lines, size);
+        _drawnMarks =
+            makeMixMarkers(_points, _snapshot->points->getMode(), _marks == MixMarks::Lines, size);
     _markSize = size;
     return _drawnMarks;
 }

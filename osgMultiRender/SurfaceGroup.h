@@ -67,9 +67,9 @@ public:
     virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, bool ordered,
                           SurfaceKey& key, std::uint32_t& number) = 0;
     virtual bool classifiesUnlit() const { return false; }
-    /// With SurfaceRole::Surface: what the leaf looks like instead of its own look; null keeps that.
-    /// Not asked for leaves whose program places their vertices or is PROTECTED. What is returned
-    /// lives until drawn().
+    /// With SurfaceRole::Surface: what the leaf looks like instead of its own look; null keeps
+    /// that. Not asked for leaves whose program places their vertices or is PROTECTED. What is
+    /// returned lives until drawn().
     virtual SurfaceLook* look(const SurfaceState& state, const osgUtil::RenderLeaf& leaf);
     /// After the last classify().
     virtual void end(osg::RenderInfo& renderInfo) = 0;

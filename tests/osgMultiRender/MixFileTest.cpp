@@ -59,7 +59,7 @@ TEST(MixFileTest, aMixSaysAllOfIt)
 {
     const support::TemporaryFolder folder;
     folder.write("own.frag", "uniform float a; // = 3\nvoid main() { gl_FragColor = "
-                                   "vec4(a); }\n");
+                             "vec4(a); }\n");
     folder.write("street.mix", Street);
     const osg::ref_ptr<MixedScene> scene = new MixedScene;
     std::string error;

@@ -20,9 +20,9 @@ protected:
     {
         Rendering rendering;
         rendering.name = name;
-        rendering.shaders.push_back(
-            {GlslStage::Fragment, "void main()\n{\n    gl_FragColor = " + color + ";\n}\n",
-             name + ".frag"});
+        rendering.shaders.push_back({GlslStage::Fragment,
+                                     "void main()\n{\n    gl_FragColor = " + color + ";\n}\n",
+                                     name + ".frag"});
         return rendering;
     }
 
@@ -95,8 +95,7 @@ TEST_F(MixedChangeGLTest, programsOfFewerRenderingsAreMadeWhenNothingMoves)
     add("gooch", {2.0, 3.0, Infinity, Infinity});
     setKeys({{-1.6, -1.0, 0.5}});
     _scene->setSettleFrames(5);
-    const osg::ref_ptr<osg::Image> before =
-        osg::clone(draw(4).get(), osg::CopyOp::DEEP_COPY_ALL);
+    const osg::ref_ptr<osg::Image> before = osg::clone(draw(4).get(), osg::CopyOp::DEEP_COPY_ALL);
     EXPECT_EQ(count("mix.programs.linked"), 1.0);
     ASSERT_NO_FATAL_FAILURE(drawUntil(2.0));
     const osg::ref_ptr<osg::Image> after = draw(30);
@@ -116,8 +115,7 @@ TEST_F(MixedChangeGLTest, aRenderingThatDoesNotCompileIsLeftOutByItsOwnFileAndLi
     const osg::ref_ptr<osg::Image> picture = draw(3);
     const Lines warnings = capture.takeWarnings();
     ASSERT_EQ(warnings.size(), 2u) << testing::PrintToString(warnings);
-    EXPECT_NE(warnings[0].find("rendering 'broken' is left out: broken.frag:3:"),
-              std::string::npos)
+    EXPECT_NE(warnings[0].find("rendering 'broken' is left out: broken.frag:3:"), std::string::npos)
         << warnings[0];
     EXPECT_NE(warnings[1].find("missing.frag"), std::string::npos) << warnings[1];
     MixTruth truth(_viewer, _model, _camera, Size);
@@ -131,8 +129,7 @@ TEST_F(MixedChangeGLTest, whereAllFailTheModelKeepsItsLook)
     _scene->addRendering(plain("broken", "vec4(undeclared)"));
     _scene->addChild(_model);
     support::NotifyCapture capture;
-    const osg::ref_ptr<osg::Image> picture =
-        osg::clone(draw().get(), osg::CopyOp::DEEP_COPY_ALL);
+    const osg::ref_ptr<osg::Image> picture = osg::clone(draw().get(), osg::CopyOp::DEEP_COPY_ALL);
     EXPECT_EQ(capture.takeWarnings().size(), 1u);
     const osg::ref_ptr<osg::Image> own = _viewer.renderFloat(_model, _camera, Size, Size);
     EXPECT_TRUE(support::CompareImage()(own, picture, "mixedNone"));

@@ -36,7 +36,8 @@ protected:
         _scene->addRendering(osgMultiRender::importNamed(name), range);
     }
 
-    void setKeys(const std::vector<osg::Vec3d>& points, osgMultiRender::KeyMode mode = osgMultiRender::KeyMode::Points)
+    void setKeys(const std::vector<osg::Vec3d>& points,
+                 osgMultiRender::KeyMode mode = osgMultiRender::KeyMode::Points)
     {
         _scene->setKeyPoints(points, mode);
         std::vector<glm::dvec3> places;
@@ -83,8 +84,8 @@ protected:
     support::HeadlessViewer _viewer{makeSettings()};
     osg::ref_ptr<osg::Image> _image = makeSampleImage(64);
     osg::ref_ptr<osg::Node> _model = makeSampleModel(*_image);
-    support::CameraSpec _camera = support::CameraSpec::perspective({2.5, -8.0, 4.5}, {0.0, 0.0, -0.2}, {0, 0, 1},
-                                                 35.0, 1.0, 1.0, 30.0);
+    support::CameraSpec _camera = support::CameraSpec::perspective(
+        {2.5, -8.0, 4.5}, {0.0, 0.0, -0.2}, {0, 0, 1}, 35.0, 1.0, 1.0, 30.0);
     osg::ref_ptr<osgMultiRender::MixedScene> _scene = new osgMultiRender::MixedScene;
     osgMultiRender::KeyPoints _points;
     std::vector<std::string> _names;

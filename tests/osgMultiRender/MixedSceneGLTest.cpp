@@ -24,7 +24,7 @@ TEST_F(MixedSceneGLTest, twoRenderingsEqualTheBlendOfTheirPictures)
 
 TEST_F(MixedSceneGLTest, eightRenderingsEqualTheBlendOfTheirPictures)
 {
-    const char* const names[] = {"phong", "toon", "gooch", "wood",
+    const char* const names[] = {"phong",    "toon", "gooch",  "wood",
                                  "textured", "xray", "bricks", "wireframe"};
     for (std::size_t i = 0; i < std::size(names); ++i)
     {
