@@ -49,8 +49,8 @@ std::string withOwnVersion(const std::string& text, const GlslVersion& target)
 class Wrapper
 {
 public:
-    Wrapper(const std::vector<GlslShader>& shaders, const GlslVersion& target)
-        : _shaders(shaders), _target(target)
+    Wrapper(const std::vector<GlslShader>& shaders, const GlslVersion& target, bool isOurs)
+        : _shaders(shaders), _target(target), _isOurs(isOurs)
     {
         for (GlslShader& shader : _shaders)
         {
@@ -121,7 +121,7 @@ private:
             for (std::size_t token = 0; token < source.tokens.size(); ++token)
             {
                 if (source.uses[token].kind != GlslUse::Kind::None &&
-                    source.word(token).substr(0, 6) == "osgmr_")
+                    source.word(token).substr(0, 6) == "osgmr_" && !_isOurs)
                 {
                     const GlslToken& at = source.tokens[token];
                     _result.errors.push_back(
@@ -191,6 +191,7 @@ private:
 
     std::vector<GlslShader> _shaders;
     GlslVersion _target;
+    bool _isOurs;
     std::vector<GlslSource> _sources;
     std::vector<GlslFragment> _fragments;
     GlslWrapped _result;
@@ -198,9 +199,10 @@ private:
 
 } // namespace
 
-GlslWrapped wrapProgram(const std::vector<GlslShader>& shaders, const GlslVersion& target)
+GlslWrapped wrapProgram(const std::vector<GlslShader>& shaders, const GlslVersion& target,
+                        bool isOurs)
 {
-    return Wrapper(shaders, target).run();
+    return Wrapper(shaders, target, isOurs).run();
 }
 
 std::string toString(const GlslVersion& version)

@@ -68,9 +68,10 @@ struct GlslWrapped
 /// built-in functions there and were not before are renamed ("osgmr_user_sample"), except names
 /// that the application addresses (uniforms, attributes, varyings): then the result is not ok and
 /// says which. The other stages are only raised. Lines of compiler messages stay those of the user.
-/// `target` must be 330 or more. Needs no context; callable from any thread.
+/// `target` must be 330 or more. `isOurs`: names that begin with osgmr_ are taken, as in what
+/// mergeRenderings() makes. Needs no context; callable from any thread.
 OSGMULTIRENDER_EXPORT GlslWrapped wrapProgram(const std::vector<GlslShader>& shaders,
-                                              const GlslVersion& target);
+                                              const GlslVersion& target, bool isOurs = false);
 
 /// Gives each output its location: that of the text, else of `bindings` (by name, as
 /// glBindFragDataLocation), else the next free one. False, with the cause in `error`, where two

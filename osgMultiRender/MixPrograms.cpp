@@ -34,6 +34,20 @@ std::string errorsOf(const Rendering& rendering)
     return text.empty() && rendering.shaders.empty() ? rendering.name + ": it has no shader" : text;
 }
 
+/// Several errors, as "a.frag:3: x; a.frag:4: y".
+std::string inOneLine(const std::string& text)
+{
+    std::string line;
+    for (const char c : text)
+        if (c != '\n')
+            line += c;
+        else if (!line.empty() && line.back() != ' ')
+            line += "; ";
+    while (!line.empty() && (line.back() == ' ' || line.back() == ';'))
+        line.pop_back();
+    return line;
+}
+
 double millisecondsSince(osg::Timer_t start)
 {
     return osg::Timer::instance()->delta_m(start, osg::Timer::instance()->tick());
@@ -133,9 +147,10 @@ void MixPrograms::tryNew(const MixSnapshot& snapshot, osg::State& state)
 
 void MixPrograms::fail(const MixSlot& slot, const std::string& cause)
 {
-    _failed[slot.id] = cause;
+    const std::string text = inOneLine(cause);
+    _failed[slot.id] = text;
     OSG_WARN << "osgMultiRender::MixedScene: rendering '" << slot.rendering->name
-             << "' is left out: " << cause << std::endl;
+             << "' is left out: " << text << std::endl;
 }
 
 MixSet MixPrograms::allOf(const MixSnapshot& snapshot) const

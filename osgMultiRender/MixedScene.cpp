@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixedScene.h>
 
+#include <osgMultiRender/MixFile.h>
+#include <osgMultiRender/MixKeys.h>
+#include <osgMultiRender/MixMarkers.h>
 #include <osgMultiRender/MixPass.h>
 
+#include <osg/MatrixTransform>
 #include <osg/Notify>
-#include <osg/Transform>
+#include <osgGA/EventVisitor>
+
+#include <algorithm>
+#include <cmath>
 
 namespace osgMultiRender
 {
@@ -31,12 +38,16 @@ std::vector<glm::dvec3> toGlm(const std::vector<osg::Vec3d>& points)
 MixedScene::MixedScene()
     : _snapshot(std::make_shared<MixSnapshot>()), _resources(std::make_shared<MixResources>())
 {
+    // So that parents lead event visitors here; not for children, which have their own.
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
 MixedScene::MixedScene(const MixedScene& other, const osg::CopyOp& copyop)
     : SurfaceGroup(other, copyop), _snapshot(other.getSnapshot()), _points(other.getKeyPoints()),
-      _keyNode(other.getKeyNode()), _resources(std::make_shared<MixResources>())
+      _keyNode(const_cast<osg::Node*>(other.getKeyNode())), _marks(other.getMarks()),
+      _answersKeys(other.getAnswersKeys()), _resources(std::make_shared<MixResources>())
 {
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
 MixedScene::~MixedScene() = default;
@@ -156,6 +167,7 @@ void MixedScene::setKeyPoints(const std::vector<osg::Vec3d>& points, KeyMode mod
             snapshot.points = keys;
             ++snapshot.mixRevision;
             _points = points;
+            _drawnMarks = nullptr;
         });
 }
 
@@ -180,7 +192,7 @@ void MixedScene::setKeyNode(osg::Node* node)
         });
 }
 
-osg::Node* MixedScene::getKeyNode() const
+const osg::Node* MixedScene::getKeyNode() const
 {
     std::lock_guard<std::mutex> lock(_settings);
     return _keyNode.get();
@@ -262,6 +274,89 @@ void MixedScene::setMaxPrograms(unsigned int programs)
 unsigned int MixedScene::getMaxPrograms() const
 {
     return static_cast<unsigned int>(getSnapshot()->maxPrograms);
+}
+
+void MixedScene::setMarks(MixMarks marks)
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    _marks = marks;
+    _drawnMarks = nullptr;
+}
+
+MixMarks MixedScene::getMarks() const
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    return _marks;
+}
+
+void MixedScene::setAnswersKeys(bool answers)
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    _answersKeys = answers;
+}
+
+bool MixedScene::getAnswersKeys() const
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    return _answersKeys;
+}
+
+void MixedScene::setMixText(const std::string& text)
+{
+    std::string error;
+    const osg::ref_ptr<MixedScene> other = new MixedScene;
+    if (!applyMix(*other, text, {}, error))
+    {
+        OSG_WARN << "osgMultiRender::MixedScene: " << error << std::endl;
+        return;
+    }
+    change(
+        [&](MixSnapshot& snapshot)
+        {
+            const std::uint64_t mix = snapshot.mixRevision, uniforms = snapshot.uniformRevision;
+            snapshot = *other->_snapshot;
+            snapshot.mixRevision = mix + 1;
+            snapshot.uniformRevision = uniforms + 1;
+            _points = other->_points;
+            _marks = other->_marks;
+            _answersKeys = other->_answersKeys;
+            _drawnMarks = nullptr;
+        });
+}
+
+std::string MixedScene::getMixText() const
+{
+    return formatMix(*this);
+}
+
+/// Some thousandths of the scene; made anew when points or the scene's size change.
+osg::ref_ptr<osg::Node> MixedScene::makeMarks()
+{
+    const osg::BoundingSphere bound = getBound();
+    std::lock_guard<std::mutex> lock(_settings);
+    if (_marks == MixMarks::Off || _points.empty())
+        return nullptr;
+    const float size = bound.valid() ? std::max(0.012f * bound.radius(), 1e-6f) : 1.0f;
+    if (!_drawnMarks || std::abs(size - _markSize) > 0.1f * size)
+        _drawnMarks =
+            makeMixMarkers(_points, _snapshot->points->getMode(), _marks == MixMarks::Lines, size);
+    _markSize = size;
+    return _drawnMarks;
+}
+
+void MixedScene::traverse(osg::NodeVisitor& visitor)
+{
+    if (auto* events = dynamic_cast<osgGA::EventVisitor*>(&visitor); events && getAnswersKeys())
+        answerKeys(*this, *events);
+    SurfaceGroup::traverse(visitor);
+    if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR)
+        return;
+    if (const osg::ref_ptr<osg::Node> marks = makeMarks())
+    {
+        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(keysToScene());
+        place->addChild(marks);
+        place->accept(visitor);
+    }
 }
 
 std::string MixedScene::getSource() const

@@ -18,6 +18,14 @@ namespace osgMultiRender
 struct MixResources;
 struct MixSnapshot;
 
+/// What is drawn of the key points beside the scene.
+enum class MixMarks
+{
+    Off,
+    Points, ///< Red spheres.
+    Lines   ///< These, and what joins them.
+};
+
 /// Shows its subgraph as a mix of renderings, weighted by the distance to key points.
 ///
 /// Any number of complete GPU programs, built-in or imported, become one program; what a surface
@@ -63,7 +71,7 @@ public:
     /// Key points move with the node, which is found anew in each frame by its first path; null:
     /// with this one.
     void setKeyNode(osg::Node* node);
-    osg::Node* getKeyNode() const;
+    const osg::Node* getKeyNode() const;
 
     /// `rules.base` is the number of a rendering or -1.
     void setRules(const MixRules& rules);
@@ -91,9 +99,21 @@ public:
     void setMaxPrograms(unsigned int programs);
     unsigned int getMaxPrograms() const;
 
+    void setMarks(MixMarks marks);
+    MixMarks getMarks() const;
+    /// Whether the scene answers to mixKeys().
+    void setAnswersKeys(bool answers);
+    bool getAnswersKeys() const;
+
+    /// Everything but the subgraph as text, JSON as in mix files. What is wrong in it is named in a
+    /// warning, and then nothing counts.
+    void setMixText(const std::string& text);
+    std::string getMixText() const;
+
     /// The text of the program that shows all renderings, both stages; empty before it was drawn.
     std::string getSource() const;
 
+    void traverse(osg::NodeVisitor& visitor) override;
     void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
 
@@ -107,11 +127,16 @@ private:
     template <class Change> bool changeSlot(unsigned int number, Change change);
     std::shared_ptr<const MixSnapshot> getSnapshot() const;
     osg::Matrixd keysToScene() const;
+    osg::ref_ptr<osg::Node> makeMarks();
 
     mutable std::mutex _settings;
     std::shared_ptr<const MixSnapshot> _snapshot;
     std::vector<osg::Vec3d> _points;
     osg::observer_ptr<osg::Node> _keyNode;
+    MixMarks _marks = MixMarks::Off;
+    bool _answersKeys = true;
+    osg::ref_ptr<osg::Node> _drawnMarks; ///< Of these key points; null: to be made.
+    float _markSize = 0.0f;
     std::shared_ptr<MixResources> _resources;
 };
 

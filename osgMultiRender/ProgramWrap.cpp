@@ -133,7 +133,7 @@ std::uint64_t contentOf(const osg::Program& program)
 }
 
 osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, const GlslSnippet& snippet,
-                                       std::string& error)
+                                       std::string& error, bool isOurs)
 {
     std::vector<GlslShader> shaders;
     for (unsigned int i = 0; i < program.getNumShaders(); ++i)
@@ -152,7 +152,7 @@ osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program, const GlslSn
     GlslVersion target;
     target.number = 330;
     target.profile = GlslVersion::Profile::Compatibility;
-    GlslWrapped wrapped = wrapProgram(shaders, target);
+    GlslWrapped wrapped = wrapProgram(shaders, target, isOurs);
     if (!wrapped.ok)
     {
         error =

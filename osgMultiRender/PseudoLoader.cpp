@@ -167,6 +167,12 @@ osgDB::ReaderWriter::ReadResult PseudoLoader::readObject(const std::string& file
     return readNode(file, options);
 }
 
+osgDB::ReaderWriter::ReadResult PseudoLoader::readModel(const std::string& file,
+                                                        const Options* options) const
+{
+    return osgDB::Registry::instance()->readNode(file, options);
+}
+
 osgDB::ReaderWriter::ReadResult PseudoLoader::readNode(const std::string& file,
                                                        const Options* options) const
 {
@@ -183,7 +189,7 @@ osgDB::ReaderWriter::ReadResult PseudoLoader::readNode(const std::string& file,
         !parseSettings(parameters, settings, error))
         return ReadResult(_suffix + ": " + error);
 
-    ReadResult result = osgDB::Registry::instance()->readNode(model, options);
+    ReadResult result = readModel(model, options);
     if (!result.validNode())
         return result;
     osg::ref_ptr<osg::Node> node = result.getNode();

@@ -49,6 +49,8 @@ public:
     ReadResult readNode(const std::string& file, const Options* options) const override;
 
 protected:
+    /// Reads what stands before the suffix; with whatever reads nodes.
+    virtual ReadResult readModel(const std::string& file, const Options* options) const;
     /// Puts the kit over `model`. Returns null and fills `error` when a setting is wrong.
     virtual osg::ref_ptr<osg::Node> wrap(osg::Node& model, const Settings& settings,
                                          std::string& error) const = 0;

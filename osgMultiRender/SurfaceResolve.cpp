@@ -204,7 +204,15 @@ void SurfaceFrame::classify(const Surface& surface, const osgUtil::RenderLeaf& l
 /// False for a program that is known not to link, and for a model's own that turns out not to.
 bool SurfaceFrame::links(osg::State& state, SurfaceVariant& variant, const SurfacePasses& passes)
 {
-    if (variant.failed || !variant.getProgram())
+    if (!variant.failed && !variant.getProgram())
+    {
+        variant.failed = true;
+        const SurfaceGroup& group = *_passes[passes[OutputRole]].group;
+        OSG_WARN << group.libraryName() << "::" << group.className()
+                 << ": a program can't be wrapped, its surfaces are drawn without what "
+                 << group.className() << " adds: " << variant.getError() << std::endl;
+    }
+    if (variant.failed)
         return false;
     auto& program = const_cast<osg::Program&>(*variant.getProgram());
     // Which one of those with defines it will be only its draw knows.

@@ -85,7 +85,8 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
     if (snippet.fragment.empty() && snippet.statements.empty())
         _program = const_cast<osg::Program*>(look.getProgram());
     else
-        _program = wrapProgram(*look.getProgram(), {snippet.fragment, snippet.statements}, _error);
+        _program =
+            wrapProgram(*look.getProgram(), {snippet.fragment, snippet.statements}, _error, true);
     if (!_program)
         return;
     _stateSet->merge(*look.getStateSet());

@@ -26,11 +26,11 @@ MixTruth::MixTruth(support::HeadlessViewer& viewer, osg::Node* model,
                                        "    gl_Position = gl_ModelViewProjectionMatrix *\n"
                                        "                  gl_Vertex;\n"
                                        "}\n"));
-    program->addShader(
-        new osg::Shader(osg::Shader::FRAGMENT, "#version 120\n"
-                                               "varying vec4 place;\n"
-                                               "void main() { gl_FragColor = vec4(place.xyz, "
-                                               "1234.0); }\n"));
+    program->addShader(new osg::Shader(osg::Shader::FRAGMENT,
+                                       "#version 120\n"
+                                       "varying vec4 place;\n"
+                                       "void main() { gl_FragColor = vec4(place.xyz, "
+                                       "1234.0); }\n"));
     places->setAttribute(program, osg::StateAttribute::OVERRIDE);
     places->setMode(GL_BLEND, osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     _places = draw(places);

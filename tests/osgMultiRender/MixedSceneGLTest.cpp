@@ -1,97 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A MixedScene shows the blend of the single pictures, whatever changes while it runs.
-#include "osgMultiRender/MixTruth.h"
-#include "osgMultiRender/RenderingScenes.h"
+// A MixedScene shows the blend of the single pictures.
+#include "osgMultiRender/MixedPictures.h"
 
-#include <osgMultiRender/Import.h>
-#include <osgMultiRender/MixedScene.h>
-#include <support/CompareImage.h>
-#include <support/NotifyCapture.h>
-
-#include <osg/Light>
+#include <osg/MatrixTransform>
 
 using namespace osgMultiRender;
-using support::CameraSpec;
 
 namespace
 {
 
-constexpr int Size = 256;
-constexpr double Infinity = std::numeric_limits<double>::infinity();
-
-class MixedSceneGLTest : public testing::Test
-{
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(_viewer); }
-
-    static support::HeadlessSettings makeSettings()
-    {
-        support::HeadlessSettings settings;
-        settings.width = settings.height = Size;
-        return settings;
-    }
-
-    void add(const std::string& name, const MixRange& range)
-    {
-        _names.push_back(name);
-        _ranges.push_back(range);
-        _scene->addRendering(importNamed(name), range);
-    }
-
-    void setKeys(const std::vector<osg::Vec3d>& points, KeyMode mode = KeyMode::Points)
-    {
-        _scene->setKeyPoints(points, mode);
-        std::vector<glm::dvec3> places;
-        for (const osg::Vec3d& point : points)
-            places.emplace_back(point.x(), point.y(), point.z());
-        _points = KeyPoints(places, mode);
-    }
-
-    osg::ref_ptr<osg::Image> draw(unsigned int frames = 1)
-    {
-        if (!_scene->getNumChildren())
-            _scene->addChild(_model);
-        return _viewer.renderFloat(_scene, _camera, Size, Size, frames);
-    }
-
-    void expectTruth(const std::string& name, unsigned int frames = 1,
-                     const MixRules& rules = MixRules())
-    {
-        MixTruth truth(_viewer, _model, _camera, Size);
-        for (const std::string& rendering : _names)
-            truth.add(makeRenderingState(*findBuiltInRendering(rendering)));
-        _scene->setRules(rules);
-        support::NotifyCapture capture;
-        const osg::ref_ptr<osg::Image> picture = draw(frames);
-        EXPECT_EQ(capture.takeWarnings(), support::NotifyCapture::Lines());
-        ASSERT_TRUE(picture);
-        support::writeImage(*picture, name);
-        const MixTruth::Difference difference =
-            truth.compare(*picture, _points, MixWeights(_ranges, rules));
-        std::cout << name << ": " << difference.covered << " pixels, " << difference.mixed
-                  << " mixed, worst " << difference.worst * 255.0 << "/255, over "
-                  << difference.over << "\n";
-        EXPECT_GT(difference.covered, Size * Size / 8);
-        EXPECT_GT(difference.mixed, difference.covered / 20);
-        EXPECT_EQ(difference.over, 0);
-    }
-
-    double count(const std::string& what) const
-    {
-        const std::vector<Plan> plans = _scene->getPlans();
-        return plans.empty() ? -1.0 : plans.back().counts.at(what);
-    }
-
-    support::HeadlessViewer _viewer{makeSettings()};
-    osg::ref_ptr<osg::Image> _image = makeSampleImage(64);
-    osg::ref_ptr<osg::Node> _model = makeSampleModel(*_image);
-    CameraSpec _camera = CameraSpec::perspective({2.5, -8.0, 4.5}, {0.0, 0.0, -0.2}, {0, 0, 1},
-                                                 35.0, 1.0, 1.0, 30.0);
-    osg::ref_ptr<MixedScene> _scene = new MixedScene;
-    KeyPoints _points;
-    std::vector<std::string> _names;
-    std::vector<MixRange> _ranges;
-};
+using MixedSceneGLTest = MixedPictures;
 
 } // namespace
 
@@ -102,4 +20,76 @@ TEST_F(MixedSceneGLTest, twoRenderingsEqualTheBlendOfTheirPictures)
     setKeys({{-1.6, -1.0, 0.5}});
     expectTruth("mixedTwo");
     EXPECT_EQ(count("leaves.fixedFunction"), 0.0);
+}
+
+TEST_F(MixedSceneGLTest, eightRenderingsEqualTheBlendOfTheirPictures)
+{
+    const char* const names[] = {"phong",    "toon", "gooch",  "wood",
+                                 "textured", "xray", "bricks", "wireframe"};
+    for (std::size_t i = 0; i < std::size(names); ++i)
+    {
+        const double from = 0.6 * double(i);
+        add(names[i], {from - 0.6, from, from, from + 0.6});
+    }
+    setKeys({{-1.6, -1.0, 0.5}, {1.0, 0.0, 0.0}, {2.0, 1.0, 1.0}}, KeyMode::Polyline);
+    expectTruth("mixedEight");
+}
+
+TEST_F(MixedSceneGLTest, drawablesOfFewerRenderingsLookTheSame)
+{
+    add("phong", {0.0, 0.0, 1.0, 1.2});
+    add("toon", {1.0, 1.2, 2.0, 3.0});
+    add("gooch", {2.0, 3.0, Infinity, Infinity});
+    setKeys({{-1.6, -1.0, 0.5}});
+    _scene->setSettleFrames(0);
+    _scene->setPruning(true);
+    expectTruth("mixedPruned", 6);
+    EXPECT_GT(count("mix.programs"), 1.0) << "none was made for fewer renderings";
+}
+
+TEST_F(MixedSceneGLTest, rulesDecideWhatIsMissingAndTooMuch)
+{
+    add("phong", {0.0, 0.0, 1.5, 3.0});
+    add("toon", {0.5, 1.5, 2.5, 3.5});
+    setKeys({{-1.6, -1.0, 0.5}});
+    MixRules rules;
+    expectTruth("mixedClamped", 1, rules);
+    rules.excess = MixRules::Excess::Normalise;
+    rules.background = {0.2, 0.4, 0.6, 1.0};
+    expectTruth("mixedNormalised", 1, rules);
+    rules.base = 0;
+    expectTruth("mixedBase", 1, rules);
+}
+
+TEST_F(MixedSceneGLTest, keyPointsFarAwayAreAsExact)
+{
+    const osg::Vec3d far(1e7, -3e6, 2e6);
+    osg::ref_ptr<osg::MatrixTransform> moved =
+        new osg::MatrixTransform(osg::Matrixd::translate(far));
+    add("phong", {0.0, 0.0, 1.0, 3.0});
+    add("gooch", {1.0, 3.0, Infinity, Infinity});
+    setKeys({{-1.6, -1.0, 0.5}});
+    const osg::ref_ptr<osg::Image> near = osg::clone(draw().get(), osg::CopyOp::DEEP_COPY_ALL);
+    _scene->removeChildren(0, 1);
+    moved->addChild(_model);
+    _scene->addChild(moved);
+    _scene->setKeyPoints({osg::Vec3d(-1.6, -1.0, 0.5) + far});
+    _camera.view = osg::Matrixd::translate(-far) * _camera.view;
+    const osg::ref_ptr<osg::Image> picture = draw();
+    const support::ImageDifference difference = support::difference(*picture, *near, 1.0 / 255.0);
+    EXPECT_EQ(difference.pixelsOver, 0u) << difference.worst * 255.0;
+}
+
+TEST_F(MixedSceneGLTest, keyPointsMoveWithTheNodeThatTheyAreAttachedTo)
+{
+    osg::ref_ptr<osg::MatrixTransform> node =
+        new osg::MatrixTransform(osg::Matrixd::translate(-1.6, -1.0, 0.5));
+    add("phong", {0.0, 0.0, 1.0, 3.0});
+    add("gooch", {1.0, 3.0, Infinity, Infinity});
+    _scene->addChild(node);
+    _scene->addChild(_model);
+    setKeys({{-1.6, -1.0, 0.5}}); // the truth; the scene has it in the node
+    _scene->setKeyPoints({osg::Vec3d()});
+    _scene->setKeyNode(node);
+    expectTruth("mixedAttached");
 }
