@@ -7,10 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 lit='.(shadows=off,lighting=pixel).shadowvolume'
 shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
 volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
-measuring=measuring labels=labels maplabels=maplabels # have no plain form
+measuring=measuring labels=labels maplabels=maplabels mixed=mixed # have no plain form
 while (($#)); do
     case $1 in
-        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels= mixed=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -22,7 +22,7 @@ scenes=build/gallery/scenes
 trap 'status=$?; ((status == 0)) || echo "gallery FAILED after $((SECONDS - start)) s" >&2' EXIT
 # Not the tests, which take most of the building time.
 OSGKITS_TARGETS="osgrender osgdb_egl osgdb_osmesa osgdb_shadowvolume osgrefinery osgdb_labels
-    osgdb_serializers_osglabels" ./setup.sh
+    osgdb_serializers_osglabels osgdb_multirender" ./setup.sh
 mkdir -p "$formats"
 
 # Other formats, made from Inventor models by stock osgconv.
@@ -43,7 +43,7 @@ for refinery in "3000 refinery.osgb" "3000 refinery.iv" "60000 refinery60000.osg
 done
 
 scripts=()
-for script in shadows $labels $maplabels $measuring chess machines robots scenes vehicles household formats; do
+for script in shadows $labels $maplabels $mixed $measuring chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"

@@ -96,7 +96,7 @@ const std::vector<LabelKey>& labelKeys()
         {'L', "Labels, shown or not"},
         {'O', "Map labels behind something: hidden, outlined, grey, faded, shown"},
         {'U', "Map labels are hidden by pixels, by anchors, by visible shares"},
-        {'C', "Map labels make way for more important ones, or not"},
+        {'G', "Map labels make way for more important ones, or not"},
     };
     return keys;
 }

@@ -126,7 +126,7 @@ const std::vector<MixKey>& mixKeys()
         {'K', "Key points: not shown, shown, with what joins them"},
         {'J', "Key points: single, joined, joined to a loop"},
         {'Y', "A new key point on the surface under the mouse"},
-        {'U', "The nearest key point goes to the surface under the mouse"},
+        {'Q', "The nearest key point goes to the surface under the mouse"},
         {'X', "Takes away the key point nearest to the surface under the mouse"},
         {'[', "Ranges of all renderings shorter by a tenth"},
         {']', "Ranges of all renderings longer by a tenth"},
