@@ -28,7 +28,7 @@ public:
              osg::Group& group);
 
     /// Identifiers of map labels count from here, those of surface labels lie below.
-    static constexpr std::uint32_t FirstIdentifier = 0x40000000u;
+    static constexpr std::uint32_t FirstIdentifier = 0x80000000u;
 
     /// One view in cull: its labels in eye coordinates. False where the scene has none in view.
     bool prepare(const MapLabels& node, const osg::Matrixd& localToEye,

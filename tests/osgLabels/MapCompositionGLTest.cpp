@@ -101,7 +101,7 @@ TEST_F(MapComposition, picksFindTheLabelOnTopWhereItIsSeen)
     const LabelScene::Picked right = pickAt(*top, 0.1, 0), left = pickAt(*top, -0.1, 0),
                              beside = pickAt(*top, 0.1, 0.3);
     EXPECT_EQ(right.text, "half of it");
-    EXPECT_GE(right.identifier, 0x40000000u);
+    EXPECT_GE(right.identifier, 0x80000000u);
     EXPECT_EQ(left.text, "before");
     EXPECT_EQ(beside.text, "middle");
     EXPECT_TRUE(top->setText(right.identifier, "another, longer text"));
