@@ -40,6 +40,9 @@ MixState::MixState(unsigned int unit)
       _stateSet(new osg::StateSet)
 {
     const osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(_texels);
+    // OSG leaves the buffer bound when it has sent changes. As GL_ARRAY_BUFFER it would turn the
+    // addresses of the next drawable's arrays into offsets.
+    _texels->getBufferObject()->setTarget(GL_TEXTURE_BUFFER_ARB);
     texture->setInternalFormat(GL_RGBA32UI_EXT);
     _stateSet->setDataVariance(osg::Object::DYNAMIC);
     _stateSet->setTextureAttribute(unit, texture, osg::StateAttribute::OVERRIDE);
