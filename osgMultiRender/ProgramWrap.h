@@ -21,9 +21,10 @@ OSGMULTIRENDER_EXPORT std::uint64_t contentOf(const osg::Program& program);
 /// own main calls. Uniform names stay; attribute, fragment data and block bindings, geometry
 /// parameters and transform feedback are copied. `snippet` comes after the colour is written.
 /// Returns null and fills `error` where that can't be done. `isOurs`: see GlslWrap.h.
-OSGMULTIRENDER_EXPORT osg::ref_ptr<osg::Program>
-wrapProgram(const osg::Program& program, const GlslSnippet& snippet, std::string& error,
-            bool isOurs = false);
+OSGMULTIRENDER_EXPORT osg::ref_ptr<osg::Program> wrapProgram(const osg::Program& program,
+                                                             const GlslSnippet& snippet,
+                                                             std::string& error,
+                                                             bool isOurs = false);
 
 /// Why a program did not compile or link in a context, one line an error: "file.frag:12: message".
 /// Call after it was applied, with the context current.

@@ -116,7 +116,9 @@ TEST(CoverageGLTest, longFootprintsAreSampledAlongTheirAxis)
                 {
                     CoverageView view = makeView(degrees, squash, em);
                     view.axis = axis;
-                    EXPECT_LE(getError(viewer, page, view), squash > 6.0 ? 1.5 : em < 12.0 ? 1.35 : 1.05)
+                    EXPECT_LE(getError(viewer, page, view), squash > 6.0 ? 1.5
+                                                            : em < 12.0  ? 1.35
+                                                                         : 1.05)
                         << degrees << " degrees, squashed by " << squash << " at " << axis << ", "
                         << em << " pixels an em";
                 }

@@ -235,7 +235,9 @@ TEST_F(LabelsPlugin, allSettingsAreSavedInEachFormat)
         R"(text=value:tag,match='^P-\d+ "x", ['"'"'(]',font='/a folder/f.ttf',proportional=on)",
         "size=0.3,gap=7.5,readable=0,up=screen,texcoord=2,chunk=on,keys=off",
         "ink=#ff8000,plate=#10203080,outline=#ffffff:0.05",
-        "styles='hot:ink=#ff0000,plate=off;cold:outline=#0000ff:0.05'", "", "match='<a&b>\n\\\t\xc3\xa4'"};
+        "styles='hot:ink=#ff0000,plate=off;cold:outline=#0000ff:0.05'",
+        "",
+        "match='<a&b>\n\\\t\xc3\xa4'"};
     for (const char* text : texts)
         for (const char* extension : Formats)
         {

@@ -125,11 +125,13 @@ TEST_F(MultiRenderPlugin, wrongSettingsAreOneClearLine)
         EXPECT_FALSE(result.success()) << settings;
         return result.message();
     };
-    EXPECT_NE(said("renderings=phong,mode=line").find("multirender: setting 'mode=line': 'line' is "
-                                                      "none of points, polyline, loop"),
+    EXPECT_NE(said("renderings=phong,mode=line")
+                  .find("multirender: setting 'mode=line': 'line' is "
+                        "none of points, polyline, loop"),
               std::string::npos);
-    EXPECT_NE(said("points='0,0,0'").find("multirender: no rendering is named; say mix=<file> or "
-                                          "renderings=<name>"),
+    EXPECT_NE(said("points='0,0,0'")
+                  .find("multirender: no rendering is named; say mix=<file> or "
+                        "renderings=<name>"),
               std::string::npos);
     EXPECT_NE(said("mix=missing.mix").find("missing.mix"), std::string::npos);
 }
