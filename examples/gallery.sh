@@ -48,7 +48,7 @@ for script in shadows $labels $maplabels $mixed $measuring chess machines robots
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"
 status=0
-build/bin/osgrender --samples 4 --clear-color 0.2,0.22,0.26 -D MODELS=$models -D FORMATS=$formats -D SCENES=$scenes \
+build/bin/osgrender --samples 4 --clear-color 0.2,0.22,0.26 -D MODELS=$models -D FORMATS=$formats -D SCENES=$scenes -D PICTURES=docs/pictures \
     -D LIT="$lit" -D SHADOWED="$shadowed" -D MASK="$mask" -D VOLUMES="$volumes" -D MAPS="$maps" \
     -D OUT=$out "${scripts[@]}" --html "$out/index.html" >"$out/summary.log" || status=$?
 summary=$(tail -n 1 "$out/summary.log")

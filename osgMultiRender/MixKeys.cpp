@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixKeys.h>
 
+#include <osgMultiRender/Import.h>
 #include <osgMultiRender/MixedScene.h>
 
 #include <osg/ApplicationUsage>
@@ -91,6 +92,14 @@ void changeNearest(MixedScene& scene, const osg::Vec3d& place, bool removes)
     scene.setKeyPoints(points, scene.getKeyMode());
 }
 
+/// The looks before stay until the new ones are linked.
+void reimport(MixedScene& scene)
+{
+    for (const unsigned int number : scene.getRenderings())
+        if (const std::string file = scene.getRendering(number)->fileName; !file.empty())
+            scene.setRendering(number, importRendering(file));
+}
+
 void answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisitor& visitor)
 {
     switch (key)
@@ -106,6 +115,9 @@ void answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisi
         break;
     case ']':
         scaleRanges(scene, 1.1);
+        break;
+    case 'R':
+        reimport(scene);
         break;
     default:
         if (const std::optional<osg::Vec3d> place = placeUnder(scene, event, visitor))
@@ -128,6 +140,7 @@ const std::vector<MixKey>& mixKeys()
         {'Y', "A new key point on the surface under the mouse"},
         {'Q', "The nearest key point goes to the surface under the mouse"},
         {'X', "Takes away the key point nearest to the surface under the mouse"},
+        {'R', "Reads the files of renderings again"},
         {'[', "Ranges of all renderings shorter by a tenth"},
         {']', "Ranges of all renderings longer by a tenth"},
     };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixMarkers.h>
 
+#include <osg/Depth>
 #include <osg/Geometry>
 #include <osg/LineWidth>
 #include <osg/Material>
@@ -72,6 +73,8 @@ osg::ref_ptr<osg::Node> makeMixMarkers(const std::vector<osg::Vec3d>& points, Ke
         markers->addChild(makeLine(counted, from, mode));
     osg::StateSet& stateSet = *markers->getOrCreateStateSet();
     stateSet.setAttribute(new osg::Program, osg::StateAttribute::OVERRIDE);
+    // A little nearer: they often lie in the surface that was picked.
+    stateSet.setAttribute(new osg::Depth(osg::Depth::LEQUAL, 0.0, 0.9999));
     stateSet.setTextureMode(0, GL_TEXTURE_2D,
                             osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE);
     return markers;

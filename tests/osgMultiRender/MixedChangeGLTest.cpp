@@ -202,3 +202,26 @@ TEST_F(MixedChangeGLTest, keptProgramsAreLimited)
     EXPECT_LE(count("mix.programs"), 3.0);
     EXPECT_GT(count("mix.programs.evicted"), 2.0);
 }
+
+TEST_F(MixedChangeGLTest, drawThreadsSeeOneMixAFrame)
+{
+    support::HeadlessSettings settings = makeSettings();
+    settings.threading = osgViewer::ViewerBase::DrawThreadPerContext;
+    support::HeadlessViewer threaded(settings);
+    OSGKITS_NEED_GL(threaded);
+    const unsigned int number = _scene->addRendering(plain("red", "vec4(1.0, 0.0, 0.0, 1.0)"));
+    _scene->addRendering(plain("blue", "vec4(0.0, 0.0, 1.0, 1.0)"), {50.0, 60.0});
+    _scene->addChild(_model);
+    _scene->setSettleFrames(0);
+    for (int i = 0; i < 60; ++i)
+    {
+        _scene->setKeyPoints({{0.1 * i, 0.0, 0.0}, {0.0, 0.1 * i, 0.0}}, KeyMode(i % 3));
+        if (i % 10 == 5)
+            _scene->setRendering(number, plain("red", "vec4(1.0, 0.0, 0.0, " +
+                                                          std::to_string(i) + ".0)"));
+        const osg::ref_ptr<osg::Image> picture =
+            threaded.renderFloat(_scene, _camera, Size, Size, 2);
+        ASSERT_TRUE(picture);
+        ASSERT_EQ(colors(*picture), std::set<std::uint32_t>{0xff0000}) << "frame " << i;
+    }
+}

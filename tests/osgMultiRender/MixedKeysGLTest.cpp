@@ -3,6 +3,10 @@
 #include "osgMultiRender/MixedPictures.h"
 
 #include <osgMultiRender/MixKeys.h>
+#include <support/TemporaryFolder.h>
+
+#include <chrono>
+#include <thread>
 
 using namespace osgMultiRender;
 
@@ -63,6 +67,21 @@ TEST_F(MixedKeysGLTest, keyPointsAreRedSpheresAndWhatJoinsThem)
     support::writeImage(*draw(), "mixedMarks");
     press('K');
     EXPECT_EQ(redPixels(), none);
+}
+
+TEST_F(MixedKeysGLTest, filesThatWereEditedAreReadAgain)
+{
+    const support::TemporaryFolder folder;
+    const std::string file =
+        folder.write("own.frag", "void main() { gl_FragColor = vec4(0.0, 1.0, 0.0, 1.0); }\n");
+    _scene->removeRendering(0);
+    _scene->addRendering(importRendering(file));
+    const int green = redPixels();
+    folder.write("own.frag", "void main() { gl_FragColor = vec4(1.0, 0.0, 0.0, 1.0); }\n");
+    press('R');
+    for (int i = 0; i < 500 && redPixels() == green; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    EXPECT_GT(redPixels(), Size * Size / 8);
 }
 
 TEST_F(MixedKeysGLTest, keysChangeRangesAndPoints)
