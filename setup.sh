@@ -40,5 +40,5 @@ if [ ! -f build/build.ninja ]; then
 fi
 echo "Building in build/"
 # OSGKITS_TARGETS: only these, "osgrender osgdb_egl …"; all when it is not set.
-read -ra targets <<<"${OSGKITS_TARGETS:-all}"
+read -r -d '' -a targets <<<"${OSGKITS_TARGETS:-all}" || true # of any number of lines
 NINJA_STATUS="[%f/%t %es] " cmake --build build --target "${targets[@]}"

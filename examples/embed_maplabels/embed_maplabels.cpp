@@ -12,6 +12,7 @@
 #include <osgViewer/ViewerEventHandlers>
 
 #include <cstdio>
+#include <iostream>
 
 namespace
 {
@@ -94,7 +95,12 @@ struct Asker : osgGA::GUIEventHandler
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
+    osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
+    usage.addCommandLineOption("-s <name=value>", "A setting of .labels, as mapaction=fade");
+    usage.addCommandLineOption("-h or --help", "This");
     osgViewer::Viewer viewer(arguments); // Takes -e, --window and others.
+    if (arguments.read("-h") || arguments.read("--help"))
+        return usage.write(std::cout), 0;
     osgLabels::LabelSettings settings;
     settings.surface = osgLabels::SurfaceLabels::Off;
     settings.mapClass = "tree:fade";
@@ -106,6 +112,9 @@ int main(int argc, char** argv)
         if (!setLabelOption(settings, setting.substr(0, equals), value, error))
             return std::fprintf(stderr, "embed_maplabels: %s\n", error.c_str()), 2;
     }
+    arguments.reportRemainingOptionsAsUnrecognized();
+    if (arguments.errors())
+        return arguments.writeErrorMessages(std::cerr), 2;
     osg::ref_ptr<LabelScene> scene = new LabelScene;
     scene->setSettings(settings);
     scene->addChild(makeTown());

@@ -86,27 +86,34 @@ private:
 int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
+    osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
+    usage.addCommandLineOption("-s <name=value>", "Settings of .multirender, as show=lines");
+    usage.addCommandLineOption("-h or --help", "This");
+    osgViewer::Viewer viewer(arguments); // Takes -e, --window and others.
+    if (arguments.read("-h") || arguments.read("--help"))
+        return usage.write(std::cout), 0;
     std::string settings, error;
     arguments.read("-s", settings);
-    osgMultiRender::Settings parsed;
-    osgViewer::Viewer viewer(arguments);
-    osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFiles(arguments);
+    arguments.reportRemainingOptionsAsUnrecognized();
+    if (arguments.errors())
+        return arguments.writeErrorMessages(std::cerr), 2;
+    osg::ref_ptr<osg::Node> model =
+        arguments.argc() > 1 ? osgDB::readRefNodeFiles(arguments) : makeStreet();
+    if (!model)
+        return std::cerr << "embed_mixed: no model could be read\n", 1;
     osg::ref_ptr<MixedScene> scene = new MixedScene;
-    scene->addChild(model ? model : makeStreet());
-
+    scene->addChild(model);
     const double size = scene->getBound().radius();
     scene->addRendering(osgMultiRender::importNamed("phong"), {0.0, 0.0, 0.2 * size, 0.4 * size});
     scene->addRendering(osgMultiRender::importNamed("toon"),
                         {0.2 * size, 0.4 * size, 0.5 * size, 0.8 * size});
     scene->addRendering(makeRings(), {0.5 * size, 0.8 * size});
+    osgMultiRender::Settings parsed;
     if (!osgMultiRender::parseSettings(settings, parsed, error) ||
         !osgMultiRender::setMixOptions(*scene, parsed, error))
-    {
-        std::cerr << "embed_mixed: " << error << "\n";
-        return 2;
-    }
+        return std::cerr << "embed_mixed: " << error << "\n", 2;
     viewer.setSceneData(scene);
     viewer.addEventHandler(new Walk(*scene));
-    viewer.addEventHandler(new osgViewer::HelpHandler(arguments.getApplicationUsage()));
+    viewer.addEventHandler(new osgViewer::HelpHandler(&usage));
     return viewer.run();
 }
