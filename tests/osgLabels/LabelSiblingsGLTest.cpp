@@ -46,10 +46,12 @@ void expectOwnLook(const Build& build, const std::string& name,
 {
     SCOPED_TRACE(name);
     const auto scene = labelled(nullptr, Invisible);
-    const Picture actual = render(*make(build, scene), camera);
+    // Both live until the end: osg::State takes what is new at an old address for what was there.
+    const osg::ref_ptr<osg::Group> with = make(build, scene), without = make(build, new osg::Group);
+    const Picture actual = render(*with, camera);
     EXPECT_GT(countOf(*scene, "labels.drawables"), 0.0) << decisionOf(*scene);
     EXPECT_EQ(countOf(*scene, "variants.failed"), 0.0);
-    const Picture expected = render(*make(build, new osg::Group), camera);
+    const Picture expected = render(*without, camera);
     ASSERT_TRUE(actual && expected);
     const Picture empty = render(*new osg::Group, camera);
     EXPECT_GT(changedShare(*expected, *empty), 0.02) << "nothing is shown";
