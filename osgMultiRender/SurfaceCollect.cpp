@@ -150,7 +150,8 @@ SurfaceFrame::Nested SurfaceFrame::enter(SurfaceGroup& group)
     const auto known = std::find_if(_passes.begin(), _passes.end(),
                                     [&](const Pass& pass) { return pass.group == &group; });
     auto place = std::uint16_t(known - _passes.begin());
-    if (known == _passes.end())
+    const bool isNew = known == _passes.end();
+    if (isNew)
         _passes.push_back({&group, group.createPass()});
     const bool isCovered =
         std::any_of(_open.begin(), _open.end(),
@@ -158,7 +159,7 @@ SurfaceFrame::Nested SurfaceFrame::enter(SurfaceGroup& group)
                     { return open != NoPass && _passes[open].role() == _passes[place].role(); });
     if (isCovered || _passes.size() > NoPass)
     {
-        if (known == _passes.end())
+        if (isNew)
             _passes.pop_back();
         place = NoPass;
     }
