@@ -23,7 +23,7 @@ Writes a generated refinery: pipe racks, vessels, towers, tanks, spheres, pumps 
 steel, each with a tag of its own, on a ground without. The ending says the format: .osgb, .osgt,
 .osgx, or .iv for Inventor text.
 
-  --objects N    how many, 0 to 2000000; for .iv and --as drawables to 100000
+  --objects N    how many, 0 to 2000000; for .iv and --as drawables to 300000
   --seed N       another number gives another refinery; default 1
   --as batch     one osgLabels::PrimitiveBatch (default)
   --as drawables one osg::Geometry an object, each in a Geode with its name
@@ -34,7 +34,7 @@ steel, each with a tag of its own, on a ground without. The ending says the form
   --help         this text
 )";
 
-constexpr unsigned int MostInBatch = 2000000, MostOrdinary = 100000;
+constexpr unsigned int MostInBatch = 2000000, MostOrdinary = 300000;
 
 struct Command
 {

@@ -207,8 +207,8 @@ TEST_F(OsgRefineryTest, wrongSwitchesAreNamed)
     EXPECT_EQ(errorOf({}), "osgrefinery: no file to write is named; see --help\n");
     EXPECT_EQ(errorOf({"--objects", "-3", "x.osgb"}),
               "osgrefinery: --objects needs a whole number up to 2000000, not '-3'\n");
-    EXPECT_EQ(errorOf({"--objects", "200000", "x.iv"}),
-              "osgrefinery: 200000 objects are too many one by one; at most 100000, or --as batch "
+    EXPECT_EQ(errorOf({"--objects", "400000", "x.iv"}),
+              "osgrefinery: 400000 objects are too many one by one; at most 300000, or --as batch "
               "in a .osgb\n");
     EXPECT_EQ(errorOf({"--as", "cubes", "x.osgb"}),
               "osgrefinery: '--as cubes' is no option; see --help\n");
