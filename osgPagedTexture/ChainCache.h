@@ -45,6 +45,10 @@ public:
     /// those levels alone, which lie at the end of the file.
     std::optional<MipChain> read(const ContentHash& key, int firstLevel);
 
+    /// Bytes of the levels that read() would give, by the header alone; nothing where it gives
+    /// none.
+    std::optional<std::uint64_t> find(const ContentHash& key, int firstLevel) const;
+
     /// Keeps a chain. An entry that holds finer levels is left as it is. Returns whether an entry
     /// at least as fine is there now; a failure is told once by takeMessages().
     bool write(const ContentHash& key, const MipChain& chain);
@@ -60,9 +64,8 @@ public:
 
 private:
     bool writeFile(const std::string& path, const std::string& bytes);
-    bool hasAsFine(const ContentHash& key, int firstLevel) const;
     void makeRoom(std::uint64_t newBytes);
-    void fail(const std::string& action, int cause);
+    void fail(const std::string& action, const std::string& cause);
 
     const std::string _folder;
     const std::uint64_t _limitBytes;
@@ -71,7 +74,8 @@ private:
     std::vector<std::string> _messages;
     bool _failed = false; ///< A failure was told.
     bool _scanned = false;
-    std::uint64_t _bytes = 0; ///< In the folder, as far as this process knows.
+    std::uint64_t _bytes = 0;          ///< In the folder, as far as this process knows.
+    std::uint64_t _bytesSinceScan = 0; ///< Written by this process.
     std::chrono::steady_clock::time_point _writeAgain{}; ///< Not before, after a failure.
 };
 
