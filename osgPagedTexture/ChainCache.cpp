@@ -123,20 +123,16 @@ std::string ChainCache::getPath(const ContentHash& key) const
     return (fs::path(_folder) / name.substr(0, 2) / (name + Extension)).string();
 }
 
-std::optional<std::uint64_t> ChainCache::find(const ContentHash& key, int firstLevel) const
+std::optional<MipChain> ChainCache::find(const ContentHash& key) const
 {
     const File file(_folder.empty() ? nullptr : std::fopen(getPath(key).c_str(), "rb"));
-    if (!file)
+    const auto layout =
+        file ? readLayout(file.get(), lengthOf(file.get())) : std::optional<ChainFileLayout>();
+    if (!layout || layout->key != key)
     {
         return {};
     }
-    const auto layout = readLayout(file.get(), lengthOf(file.get()));
-    if (!layout || layout->key != key || layout->firstLevel > firstLevel)
-    {
-        return {};
-    }
-    const int last = levelCount(layout->width, layout->height) - 1;
-    return chainBytes(layout->format, layout->width, layout->height, std::min(firstLevel, last));
+    return MipChain{layout->format, layout->width, layout->height, layout->firstLevel, {}};
 }
 
 std::optional<MipChain> ChainCache::read(const ContentHash& key, int firstLevel)
@@ -189,7 +185,7 @@ bool ChainCache::write(const ContentHash& key, const MipChain& chain)
     {
         return false;
     }
-    if (find(key, chain.firstLevel))
+    if (const auto held = find(key); held && held->firstLevel <= chain.firstLevel)
     {
         return true;
     }

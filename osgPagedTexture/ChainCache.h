@@ -45,9 +45,8 @@ public:
     /// those levels alone, which lie at the end of the file.
     std::optional<MipChain> read(const ContentHash& key, int firstLevel);
 
-    /// Bytes of the levels that read() would give, by the header alone; nothing where it gives
-    /// none.
-    std::optional<std::uint64_t> find(const ContentHash& key, int firstLevel) const;
+    /// What an entry holds, by its header alone: a chain without its levels.
+    std::optional<MipChain> find(const ContentHash& key) const;
 
     /// Keeps a chain. An entry that holds finer levels is left as it is. Returns whether an entry
     /// at least as fine is there now; a failure is told once by takeMessages().

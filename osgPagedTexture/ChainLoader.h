@@ -74,11 +74,11 @@ struct ChainLoaderSettings
 /// for poll() are held within `memoryBytes`: a job that does not fit waits; one that is larger than
 /// all of it runs alone.
 ///
-/// A file that cannot be read (missing, no rights, disk error), or that is damaged and has changed
-/// since, is tried again after 1, 4 and 16 s; then the request fails. Other failures are final at
-/// once. Each file's failure is told once by takeMessages(), also where several requests meet it.
-/// No thread exists before the first request; the destructor waits for the jobs at work, which end
-/// at the next rows of their picture. Any thread.
+/// A file that cannot be read (missing, no rights, disk error, changed meanwhile), or that is
+/// damaged and was written less than 10 s ago, is tried again after 1, 4 and 16 s; then the request
+/// fails. Other failures are final at once. Each file's failure is told once by takeMessages(),
+/// also where several requests meet it. No thread exists before the first request; the destructor
+/// waits for the jobs at work, which end at the next rows of their picture. Any thread.
 class OSGPAGEDTEXTURE_EXPORT ChainLoader
 {
 public:
@@ -125,7 +125,7 @@ public:
 
 private:
     class State;
-    std::shared_ptr<State> _state;
+    std::unique_ptr<State> _state;
 };
 
 } // namespace osgPagedTexture

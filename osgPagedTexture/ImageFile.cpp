@@ -13,14 +13,14 @@ ImageError::ImageError(Kind kind, const std::string& path, const std::string& ca
 {
 }
 
-ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits)
+ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool lookAtAlpha)
 {
     // A JPEG's header lies within this but for giant profiles; then all of it is read.
     constexpr std::size_t headBytes = 64 << 10;
     const FileHead head = readFileHead(path, headBytes);
     if (!isJpeg(head.bytes))
     {
-        return readOiioInfo(path, head.fileBytes, limits);
+        return readOiioInfo(path, head.fileBytes, limits, lookAtAlpha);
     }
     ImageInfo info;
     if (!readJpegInfo(head.bytes, head.fileBytes, path, limits, info))

@@ -25,6 +25,7 @@ public:
         Cancelled ///< ReadSettings::cancelled became true.
     };
     ImageError(Kind kind, const std::string& path, const std::string& causeAndRemedy);
+    ImageError(Kind kind, const std::string& line) : std::runtime_error(line), _kind(kind) {}
     Kind getKind() const { return _kind; }
 
 private:
@@ -40,6 +41,7 @@ struct ImageInfo
     bool translucent = false; ///< A pixel's alpha is below 1.
     std::string format;       ///< By content: "jpeg", or OpenImageIO's name, "png".
     std::uint64_t fileBytes = 0;
+    std::uint64_t decoderBytes = 0; ///< Memory that decoding takes besides the pixels.
 };
 
 /// Which pictures are refused before memory is taken for their pixels. Besides these, a picture
@@ -74,10 +76,12 @@ struct DecodedImage
     std::string warning; ///< Then: what was wrong, one line that names the file.
 };
 
-/// Reads what the header says; where there is an alpha channel, decodes it to see whether it is
-/// used. The format is that of the content, whatever the extension. Throws ImageError. Any thread.
+/// Reads what the header says. Where there is an alpha channel, `lookAtAlpha` decodes it to see
+/// whether it is used; else it counts as used. The format is that of the content, whatever the
+/// extension. Throws ImageError. Any thread.
 OSGPAGEDTEXTURE_EXPORT ImageInfo readImageInfo(const std::string& path,
-                                               const ImageLimits& limits = {});
+                                               const ImageLimits& limits = {},
+                                               bool lookAtAlpha = true);
 
 /// Reads a picture at the size of a mip level. JPEG is scaled by 1/2, 1/4, 1/8 while its blocks are
 /// decoded, in the colour space of the file; the rest is averaged over the texels' areas. Grey, 16

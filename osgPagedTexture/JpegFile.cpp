@@ -128,6 +128,10 @@ bool readJpegInfo(const std::string& head, std::uint64_t fileBytes, const std::s
     info.channels = channelsOf(jpeg);
     info.format = "jpeg";
     info.fileBytes = fileBytes;
+    // The coefficients of all scans, two bytes each, are held until the last one.
+    info.decoderBytes = jpeg.progressive_mode ? std::uint64_t(jpeg.image_width) *
+                                                    jpeg.image_height * jpeg.num_components * 2
+                                              : 0;
     return true;
 }
 

@@ -207,7 +207,8 @@ bool isTranslucent(OiioReader& reader)
 
 } // namespace
 
-ImageInfo readOiioInfo(const std::string& path, std::uint64_t fileBytes, const ImageLimits& limits)
+ImageInfo readOiioInfo(const std::string& path, std::uint64_t fileBytes, const ImageLimits& limits,
+                       bool lookAtAlpha)
 {
     OiioReader reader(path, fileBytes, limits);
     const bool turned = isTransposed(reader.orientation());
@@ -217,7 +218,7 @@ ImageInfo readOiioInfo(const std::string& path, std::uint64_t fileBytes, const I
     info.channels = reader.channels();
     info.format = reader.format();
     info.fileBytes = fileBytes;
-    info.translucent = isTranslucent(reader);
+    info.translucent = lookAtAlpha ? isTranslucent(reader) : reader.alphaChannel() >= 0;
     return info;
 }
 

@@ -4,6 +4,7 @@
 #include <osgPagedTexture/Export.h>
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
@@ -12,11 +13,18 @@
 #include <mutex>
 #include <set>
 #include <thread>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 namespace osgPagedTexture
 {
+
+/// The higher rank goes first, then the higher value.
+struct JobPriority
+{
+    int rank = 0;
+    double value = 0.0;
+};
 
 /// Threads that run jobs, the highest priority first, equal ones in the order they came. No thread
 /// exists before the first job. Any thread may call it.
@@ -24,7 +32,8 @@ class OSGPAGEDTEXTURE_EXPORT WorkerPool
 {
 public:
     using JobId = std::uint64_t;
-    /// `cancelled` becomes true where the job is no longer wanted: it should end soon then.
+    /// `cancelled` becomes true where the job is no longer wanted: it should end soon then. Must
+    /// not throw.
     using Job = std::function<void(const std::atomic<bool>& cancelled)>;
 
     /// 0 threads: one less than the machine has, at least one.
@@ -35,42 +44,45 @@ public:
     WorkerPool(const WorkerPool&) = delete;
     WorkerPool& operator=(const WorkerPool&) = delete;
 
-    /// Adds a job, which must not throw. Ids start at 1 and are never used twice.
-    JobId submit(double priority, Job job);
-
-    /// Adds a job that no thread takes before `delaySeconds` have passed.
-    JobId submitLater(double delaySeconds, double priority, Job job);
+    /// Adds a job that no thread takes before `delaySeconds` have passed. Ids start at 1 and are
+    /// never used twice.
+    JobId submit(JobPriority priority, Job job, double delaySeconds = 0.0);
 
     /// Changes the priority of a job that waits; else does nothing.
-    void setPriority(JobId id, double priority);
+    void setPriority(JobId id, JobPriority priority);
 
     /// Removes a job that waits and returns true; tells one that runs and returns false.
     bool cancel(JobId id);
 
+    /// Ends as the destructor does; jobs that come later are dropped.
+    void stop();
+
     std::size_t getWaitingCount() const;
-    unsigned int getThreadCount() const; ///< That exist now.
+    std::size_t getThreadCount() const; ///< That exist now.
 
 private:
     using Clock = std::chrono::steady_clock;
     struct Waiting
     {
-        double priority;
+        JobPriority priority;
         Job job;
-        Clock::time_point due; ///< Already in the past for most.
+        Clock::time_point due; ///< The past for jobs without delay.
+        bool delayed = false;
     };
-    /// Highest priority first, then the oldest.
-    using Order = std::set<std::pair<double, JobId>>;
-    void run();
-    void wakeDueJobs(Clock::time_point now);
-    void startThreads();
-    bool takeJob(std::unique_lock<std::mutex>& lock, JobId& id, Job& job);
+    using Rank = std::tuple<int, double, JobId>; ///< Smallest first.
+    using Due = std::pair<Clock::time_point, JobId>;
 
-    const unsigned int _threadCount;
+    static Rank rankOf(const Waiting& waiting, JobId id);
+    void run();
+    void moveDueJobs();
+    void waitForJob(std::unique_lock<std::mutex>& lock);
+
+    const std::size_t _threadCount;
     mutable std::mutex _mutex;
     std::condition_variable _changed;
     std::map<JobId, Waiting> _waiting;
-    Order _order;                                       ///< {-priority, id} of those that are due.
-    std::set<std::pair<Clock::time_point, JobId>> _due; ///< Of the others.
+    std::set<Rank> _ready;
+    std::set<Due> _delayed;
     std::map<JobId, std::shared_ptr<std::atomic<bool>>> _running;
     std::vector<std::thread> _threads;
     JobId _lastId = 0;
