@@ -76,8 +76,9 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
         if (_all && _all->getSet() == set)
             break;
         const bool showsAny =
-            _all && std::any_of(set.members.begin(), set.members.end(),
-                                [&](const MixSet::Member& m) { return _all->covers(m.slot); });
+            _all && _all->getSet().isTransparent == set.isTransparent &&
+            std::any_of(set.members.begin(), set.members.end(),
+                        [&](const MixSet::Member& m) { return _all->covers(m.slot); });
         osg::ref_ptr<MixProgram> made = build(set, snapshot, state, !showsAny);
         if (made)
             _all = made;
@@ -118,10 +119,7 @@ void MixPrograms::fillFrame(const MixSnapshot& snapshot, Frame& frame) const
         frame.leftOut.emplace_back(number, why);
     }
     if (_all)
-    {
         _all->lastUsed = _frame;
-        _all->update(snapshot);
-    }
 }
 
 /// Compiles and links each new rendering alone, so that what is wrong is said of it alone.
@@ -156,20 +154,20 @@ void MixPrograms::fail(const MixSlot& slot, const std::string& cause)
 MixSet MixPrograms::allOf(const MixSnapshot& snapshot) const
 {
     MixSet set;
+    set.isTransparent = snapshot.isTransparent;
     for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
         if (snapshot.slots[i].rendering && !_failed.count(snapshot.slots[i].id))
             set.members.push_back({std::uint16_t(i), snapshot.slots[i].id});
     return set;
 }
 
-osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set, const MixSnapshot& snapshot)
+osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto found = _programs.find(set);
     if (found == _programs.end())
         return nullptr;
     found->second->lastUsed = _frame;
-    found->second->update(snapshot);
     return found->second;
 }
 
@@ -217,7 +215,6 @@ osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
         _broken.insert(set);
         return nullptr;
     }
-    program->update(*snapshot);
     program->lastUsed = _frame;
     _programs[set] = program;
     return program;

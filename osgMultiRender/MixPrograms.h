@@ -43,7 +43,7 @@ public:
     /// At the head of a frame. Waits for a merge only where there is nothing to show yet.
     Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
     /// The linked program of exactly this set, or null.
-    osg::ref_ptr<MixProgram> find(const MixSet& set, const MixSnapshot& snapshot);
+    osg::ref_ptr<MixProgram> find(const MixSet& set);
     /// Has it made; `waits`: at once.
     osg::ref_ptr<MixProgram> make(const MixSet& set,
                                   const std::shared_ptr<const MixSnapshot>& snapshot,

@@ -67,6 +67,7 @@ void addMerged(osg::StateSet& stateSet, const MixTask& task, std::size_t first, 
                       "float osgmr_weight(int rendering)\n{\n    return osgmr_slotWeight(" +
                       std::to_string(first) + " + rendering);\n}\n";
     options.begin = "osgmr_mixBegin();";
+    options.beginAt = "osgmr_mixAt";
     options.outside = outside;
     const Merged merged = osgMultiRender::mergeRenderings(entries, options);
     for (std::size_t i = 0; i < entries.size(); ++i)
