@@ -8,6 +8,8 @@
 
 #include <osg/observer_ptr>
 
+#include <set>
+
 namespace osgMultiRender
 {
 

@@ -194,6 +194,8 @@ std::shared_ptr<const MixProgram::Values> MixProgram::valuesOf(const MixSnapshot
             if (const auto found = given.find(value.name); found != given.end())
                 values = &found->second;
         }
+        if (values->empty())
+            continue; // as the text says
         made->uniforms.push_back(new osg::Uniform(value.type, value.merged, value.arraySize));
         setValues(*made->uniforms.back(), *values);
     }
