@@ -227,6 +227,10 @@ void MixPass::fillPlan(Plan& plan) const
         plan.entries.push_back({"rendering " + std::to_string(slot) + " '" +
                                     _snapshot->slots[slot].rendering->name + "'",
                                 Decision::Dropped, why});
+    if (_frame.all)
+        for (const MergeMessage& message : _frame.all->getMerged().messages)
+            if (message.severity != MergeSeverity::Error)
+                plan.entries.push_back({"merged program", Decision::Drawn, message.text});
     const MixPrograms::Counts counts = _resources->programs.getCounts();
     plan.counts["mix.programs"] = counts.kept;
     plan.counts["mix.programs.merged"] = counts.merged;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace mergeChecks;
 
 namespace
@@ -275,6 +277,22 @@ TEST(MergePlanTest, aPositionThatARenderingInterpolatesIsUsedForTheWeights)
     EXPECT_EQ(calls("vec3(gl_ModelViewMatrix * gl_Vertex) * 2.0", usual, "    begin();"), 1u);
     EXPECT_EQ(calls("vec3(gl_ModelViewMatrix * gl_Vertex)", usual + " + vec4(1.0)", "    begin();"),
               1u);
+}
+
+TEST(MergePlanTest, earlyFragmentTestsAreNamedAsNotTaken)
+{
+    const Rendering early = mergeCase("early", "#version 420 compatibility\n"
+                                               "layout(early_fragment_tests) in;\n"
+                                               "void main() { gl_FragColor = vec4(1.0); }");
+    const Merged merged = merge({mergeCase("a", Plain), early});
+    ASSERT_TRUE(merged.renderings[1].included);
+    EXPECT_EQ(merged.fragment.find("early_fragment_tests"), std::string::npos);
+    const auto names = [](const MergeMessage& message)
+    {
+        return message.severity == MergeSeverity::Note && message.rendering == 1 &&
+               message.text.find("early: early_fragment_tests is not taken") == 0;
+    };
+    EXPECT_EQ(std::count_if(merged.messages.begin(), merged.messages.end(), names), 1);
 }
 
 } // namespace
