@@ -161,6 +161,11 @@ std::string lineDirective(std::size_t file, unsigned long line);
 /// Finds what varyings and positions are worth, so that equal ones are known.
 void valueVaryings(MergeProgram& program);
 
+/// Whether gl_Position is known to be what ftransform() gives.
+bool hasUsualPosition(const MergeProgram& program);
+/// Whether a varying is known to be gl_ModelViewMatrix * gl_Vertex, smooth over the triangle.
+bool isEyePosition(const MergeVarying& varying);
+
 /// One vector that is interpolated, with the components of several renderings.
 struct MergeVector
 {

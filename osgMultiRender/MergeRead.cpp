@@ -275,7 +275,28 @@ private:
         {
             block(stage, index, i);
         }
+        layouts(source);
         features(stage, index);
+    }
+
+    /// "layout(early_fragment_tests) in;" counts for the whole program, so it can't be one's own.
+    void layouts(const GlslSource& source)
+    {
+        for (const GlslSpecifiers& specifiers : source.specifiers)
+        {
+            for (const GlslQualifier& qualifier : specifiers.qualifiers)
+            {
+                for (std::size_t i = qualifier.range.first; i < qualifier.range.last; ++i)
+                {
+                    if (specifiers.type.empty() && source.word(i) == "early_fragment_tests")
+                    {
+                        _program.note(_program.rendering->name +
+                                      ": early_fragment_tests is not taken: it would hold for the "
+                                      "other renderings, too");
+                    }
+                }
+            }
+        }
     }
 
     /// The tokens that lie within functions.

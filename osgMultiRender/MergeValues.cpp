@@ -328,13 +328,13 @@ private:
     std::map<std::string, std::string> _values;
 };
 
-/// The usual ways to write what ftransform() does, as one.
-std::string positionOf(const std::string& value)
+/// A value without brackets, spaces and its type.
+std::string plainOf(const std::string& value)
 {
     std::string plain;
     for (std::size_t i = 0; i < value.size(); ++i)
     {
-        if (value.compare(i, 5, "vec4{") == 0)
+        if (value.compare(i, 5, "vec4{") == 0 || value.compare(i, 5, "vec3{") == 0)
         {
             i += 4;
         }
@@ -343,12 +343,34 @@ std::string positionOf(const std::string& value)
             plain += value[i];
         }
     }
+    return plain;
+}
+
+/// The usual ways to write what ftransform() does, as one.
+std::string positionOf(const std::string& value)
+{
+    const std::string plain = plainOf(value);
     const bool usual = plain == "ftransform" || plain == "gl_ModelViewProjectionMatrix*gl_Vertex" ||
                        plain == "gl_ProjectionMatrix*gl_ModelViewMatrix*gl_Vertex";
     return usual ? "ftransform" : value;
 }
 
 } // namespace
+
+bool hasUsualPosition(const MergeProgram& program)
+{
+    return program.position == "ftransform";
+}
+
+bool isEyePosition(const MergeVarying& varying)
+{
+    const std::string plain = plainOf(varying.value);
+    const std::string eye = "gl_ModelViewMatrix*gl_Vertex";
+    const bool isWhole = varying.components == 4 && plain == eye;
+    const bool isPart = varying.components == 3 && (plain == "vec3" + eye || plain == eye + ".xyz");
+    return (isWhole || isPart) && varying.base == 'f' && varying.interpolation.empty() &&
+           varying.condition.empty();
+}
 
 void valueVaryings(MergeProgram& program)
 {

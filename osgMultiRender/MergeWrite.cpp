@@ -57,6 +57,7 @@ public:
         {
             _base = program->id == options.base ? program : _base;
             _depth = _depth || !program->depth.empty();
+            _discards = _discards || program->discards;
         }
         _base = _base ? _base : programs.front();
     }
@@ -224,17 +225,41 @@ private:
         }
     }
 
+    /// A varying that holds where the fragment is; empty if none is known to.
+    std::string eyePosition() const
+    {
+        if (!hasUsualPosition(*_base))
+        {
+            return "";
+        }
+        for (const MergeProgram* program : _programs)
+        {
+            for (const MergeVarying& one : program->varyings)
+            {
+                if (isEyePosition(one))
+                {
+                    return partOf(one, _vectors) + (one.components == 4 ? ".xyz" : "");
+                }
+            }
+        }
+        return "";
+    }
+
     void fragmentMain()
     {
         _text += "\nvoid main()\n{\n"
                  "    vec3 osgmr_sum = vec3(0.0);\n"
                  "    float osgmr_total = 0.0;\n"
-                 "    bool osgmr_any = false;\n"
                  "    float osgmr_w;\n"
                  "    vec4 osgmr_c;\n";
+        // Without a discard in the text fragments are tested for depth before they are computed.
+        _text += _discards ? "    bool osgmr_any = false;\n" : "";
         _text += _depth ? "    float osgmr_depth = 0.0;\n" : "";
         _text += _options.outside == MergeOutside::Base ? "    vec4 osgmr_base;\n" : "";
-        _text += _options.begin.empty() ? "" : "    " + _options.begin + "\n";
+        const std::string eye = _options.beginAt.empty() ? "" : eyePosition();
+        const std::string begin =
+            eye.empty() ? _options.begin : _options.beginAt + "(" + eye + ");";
+        _text += begin.empty() ? "" : "    " + begin + "\n";
         for (const MergeProgram* program : _programs)
         {
             rendering(*program);
@@ -264,7 +289,7 @@ private:
             unpack(program, "        ");
             _text += "        " + call;
         }
-        _text += "        osgmr_any = true;\n";
+        _text += _discards ? "        osgmr_any = true;\n" : "";
         const std::string indent = program.discards ? "            " : "        ";
         _text += program.discards ? "        if (!" + program.discarded + ")\n        {\n" : "";
         _text += indent + "osgmr_sum += osgmr_w * osgmr_c.rgb;\n";
@@ -287,7 +312,10 @@ private:
         }
         else
         {
-            _text += "        if (osgmr_any)\n        {\n            discard;\n        }\n";
+            if (_discards)
+            {
+                _text += "        if (osgmr_any)\n        {\n            discard;\n        }\n";
+            }
             if (_options.outside == MergeOutside::Base)
             {
                 _text += _base->discards ? "        if (" + _base->discarded +
@@ -325,6 +353,7 @@ private:
     Merged& _merged;
     const MergeProgram* _base = nullptr;
     bool _depth = false;
+    bool _discards = false; ///< Any of the programs.
     std::string _text;
     std::ptrdiff_t _lines = 0; ///< In the first `_counted` bytes of the text.
     std::size_t _counted = 0;

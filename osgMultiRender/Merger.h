@@ -47,6 +47,9 @@ struct MergeOptions
 
     /// Statements at the head of the fragment stage's main(), with what `weights` defines.
     std::string begin;
+    /// Name of a function that `weights` defines, `void f(vec3 eyePosition)`. It is called instead
+    /// of `begin` where a varying of a rendering is known to hold the fragment's position.
+    std::string beginAt;
     /// Name of a function that `weights` defines, `vec4 f(vec4 sum)`: from the sum of weight times
     /// colour, and of the weights, to the fragment's colour. Empty: the sum, clamped to 0 to 1.
     std::string end;

@@ -73,8 +73,6 @@ void MixPass::begin(osg::RenderInfo& renderInfo, const SurfaceFrame&)
         _state = new MixState(MixUnit);
     _state->update(*_snapshot->points, _weights, _keysToEye);
     osg::StateSet& stateSet = *_state->getStateSet();
-    stateSet.getOrCreateUniform("osgmr_mixTransparent", osg::Uniform::BOOL)
-        ->set(_snapshot->isTransparent);
     const auto mode = osg::StateAttribute::OVERRIDE;
     if (_snapshot->isTransparent)
         stateSet.setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
@@ -128,6 +126,7 @@ MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
             set.isWhole = weights[i].isOne();
         }
     set.isWhole = set.isWhole && set.members.size() == 1;
+    set.isTransparent = _snapshot->isTransparent && !set.isWhole;
     return set;
 }
 
@@ -140,9 +139,13 @@ SurfaceLook* MixPass::look(const SurfaceState&, const osgUtil::RenderLeaf& leaf)
         set = _frame.all->getSet();
     const auto [found, isNew] = _sets.try_emplace(set);
     if (isNew)
-        found->second.program = _resources->programs.find(set, *_snapshot);
+        found->second.program = _resources->programs.find(set);
     ++found->second.leaves;
-    return found->second.program ? found->second.program.get() : _frame.all.get();
+    MixProgram* program = found->second.program ? found->second.program.get() : _frame.all.get();
+    auto& values = _values[program];
+    if (!values)
+        values = program->valuesOf(*_snapshot);
+    return program;
 }
 
 void MixPass::end(osg::RenderInfo& renderInfo)
@@ -175,6 +178,7 @@ void MixPass::drawn(osg::RenderInfo&)
 const osg::StateSet* MixPass::startRun()
 {
     _variant = nullptr;
+    _sent.clear();
     return _state ? _state->getStateSet() : nullptr;
 }
 
@@ -189,9 +193,16 @@ void MixPass::apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
         return;
     _variant = &variant;
     _viewport = viewport;
-    state.get<osg::GLExtensions>()->glUniform4f(
-        program->getUniformLocation(name), GLfloat(viewport->x()), GLfloat(viewport->y()),
-        GLfloat(2.0 / viewport->width()), GLfloat(2.0 / viewport->height()));
+    auto* gl = state.get<osg::GLExtensions>();
+    gl->glUniform4f(program->getUniformLocation(name), GLfloat(viewport->x()),
+                    GLfloat(viewport->y()), GLfloat(2.0 / viewport->width()),
+                    GLfloat(2.0 / viewport->height()));
+    // Past osg::State, whose values of these names would be the last frame's.
+    const auto values = _values.find(variant.getLook());
+    if (values != _values.end() && _sent.insert(&variant).second)
+        for (const osg::ref_ptr<osg::Uniform>& uniform : values->second->uniforms)
+            if (const GLint place = program->getUniformLocation(uniform->getNameID()); place >= 0)
+                uniform->apply(gl, place);
 }
 
 std::string MixPass::nameOf(const MixSet& set) const
@@ -216,6 +227,10 @@ void MixPass::fillPlan(Plan& plan) const
         plan.entries.push_back({"rendering " + std::to_string(slot) + " '" +
                                     _snapshot->slots[slot].rendering->name + "'",
                                 Decision::Dropped, why});
+    if (_frame.all)
+        for (const MergeMessage& message : _frame.all->getMerged().messages)
+            if (message.severity != MergeSeverity::Error)
+                plan.entries.push_back({"merged program", Decision::Drawn, message.text});
     const MixPrograms::Counts counts = _resources->programs.getCounts();
     plan.counts["mix.programs"] = counts.kept;
     plan.counts["mix.programs.merged"] = counts.merged;

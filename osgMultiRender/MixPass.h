@@ -8,6 +8,8 @@
 
 #include <osg/observer_ptr>
 
+#include <set>
+
 namespace osgMultiRender
 {
 
@@ -63,6 +65,9 @@ private:
     MixWeights _weights;
     osg::ref_ptr<MixState> _state;
     std::map<MixSet, Shown> _sets;
+    /// Of the renderings' uniforms. Looks, not their texts: two may differ in values alone.
+    std::map<const SurfaceLook*, std::shared_ptr<const MixProgram::Values>> _values;
+    std::set<const SurfaceVariant*> _sent;    ///< Have their values in this run.
     const osg::Viewport* _viewport = nullptr; ///< As the program has it.
     const SurfaceVariant* _variant = nullptr;
 };

@@ -66,7 +66,6 @@ std::string weightsOf(const MixSet& set)
     return "#define osgmr_weight osgmr_slotWeight\n" + MixState::getSource() +
            "#undef osgmr_weight\n"
            "uniform vec4 osgmr_mixViewport; // place; 2 / size\n"
-           "uniform bool osgmr_mixTransparent;\n"
            "const int osgmr_slots" +
            count + " = int" + count + "(" + slots +
            ");\n"
@@ -82,9 +81,9 @@ std::string weightsOf(const MixSet& set)
            "    return osgmr_slotWeight(osgmr_slots[rendering]);\n"
            "}\n"
            "vec4 osgmr_mixEnd(vec4 sum)\n{\n"
-           "    vec4 color = osgmr_mixed(sum);\n"
-           "    if (osgmr_mixTransparent && color.a == 0.0)\n"
-           "        discard;\n"
+           "    vec4 color = osgmr_mixed(sum);\n" +
+           // A discard anywhere in the text puts the depth test behind the fragment's computation.
+           (set.isTransparent ? "    if (color.a == 0.0)\n        discard;\n" : "") +
            "    return color;\n"
            "}\n";
 }
@@ -117,6 +116,7 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
     if (!set.isWhole)
     {
         options.begin = "osgmr_mixBegin();";
+        options.beginAt = "osgmr_mixAt";
         options.end = "osgmr_mixEnd";
         options.outside = MergeOutside::Transparent;
     }
@@ -130,10 +130,8 @@ MixProgram::MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snap
     : SurfaceLook(makeProgram(merged, set), new osg::StateSet), _set(set),
       _merged(std::move(merged))
 {
-    _stateSet->setDataVariance(osg::Object::DYNAMIC);
     addUniforms(snapshot);
     addTextures(snapshot);
-    update(snapshot);
 }
 
 bool MixProgram::covers(std::uint16_t slot) const
@@ -151,15 +149,17 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
         const osg::Uniform::Type type = osg::Uniform::getTypeId(merged.type);
         if (type == osg::Uniform::UNDEFINED || merged.merged.compare(0, 4, "osg_") == 0)
             continue; // blocks and structs are the application's, osg_ is OSG's
-        osg::ref_ptr<osg::Uniform> uniform =
-            new osg::Uniform(type, merged.merged, std::max(1, merged.arraySize));
+        const int size = std::max(1, merged.arraySize);
         const std::uint16_t slot = _set.members[merged.rendering].slot;
-        const RenderingUniform* own = snapshot.slots[slot].rendering->findUniform(merged.name);
-        if (!merged.units.empty())
-            setValues(*uniform, std::vector<double>(merged.units.begin(), merged.units.end()));
-        else
-            _values.push_back(
-                {uniform, slot, merged.name, own ? own->values : std::vector<double>()});
+        if (merged.units.empty())
+        {
+            const RenderingUniform* own = snapshot.slots[slot].rendering->findUniform(merged.name);
+            _values.push_back({type, merged.merged, size, slot, merged.name,
+                               own ? own->values : std::vector<double>()});
+            continue;
+        }
+        const osg::ref_ptr<osg::Uniform> uniform = new osg::Uniform(type, merged.merged, size);
+        setValues(*uniform, std::vector<double>(merged.units.begin(), merged.units.end()));
         _stateSet->addUniform(uniform);
     }
 }
@@ -178,11 +178,13 @@ void MixProgram::addTextures(const MixSnapshot& snapshot)
     }
 }
 
-void MixProgram::update(const MixSnapshot& snapshot)
+std::shared_ptr<const MixProgram::Values> MixProgram::valuesOf(const MixSnapshot& snapshot)
 {
-    if (_uniformRevision == snapshot.uniformRevision)
-        return;
-    _uniformRevision = snapshot.uniformRevision;
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (_latest && _latest->revision == snapshot.uniformRevision)
+        return _latest;
+    const auto made = std::make_shared<Values>();
+    made->revision = snapshot.uniformRevision;
     for (const Value& value : _values)
     {
         const std::vector<double>* values = &value.ownValues;
@@ -192,8 +194,13 @@ void MixProgram::update(const MixSnapshot& snapshot)
             if (const auto found = given.find(value.name); found != given.end())
                 values = &found->second;
         }
-        setValues(*value.uniform, *values);
+        if (values->empty())
+            continue; // as the text says
+        made->uniforms.push_back(new osg::Uniform(value.type, value.merged, value.arraySize));
+        setValues(*made->uniforms.back(), *values);
     }
+    _latest = made;
+    return made;
 }
 
 } // namespace osgMultiRender

@@ -8,12 +8,15 @@
 
 #include <osg/Uniform>
 
-#include <atomic>
+#include <memory>
+#include <mutex>
+#include <tuple>
 
 namespace osgMultiRender
 {
 
 /// Which renderings a program shows: slots in order. `isWhole`: the only one, everywhere at 1.
+/// `isTransparent`: fragments of alpha 0 are left out.
 struct MixSet
 {
     struct Member
@@ -29,14 +32,17 @@ struct MixSet
 
     std::vector<Member> members;
     bool isWhole = false;
+    bool isTransparent = false;
 
     bool operator<(const MixSet& other) const
     {
-        return isWhole != other.isWhole ? other.isWhole : members < other.members;
+        return std::tie(isWhole, isTransparent, members) <
+               std::tie(other.isWhole, other.isTransparent, other.members);
     }
     bool operator==(const MixSet& other) const
     {
-        return isWhole == other.isWhole && members == other.members;
+        return isWhole == other.isWhole && isTransparent == other.isTransparent &&
+               members == other.members;
     }
     bool has(std::uint16_t slot) const;
 };
@@ -57,8 +63,15 @@ public:
     const Merged& getMerged() const { return _merged; }
     /// Whether it shows the slot: a member may have been left out.
     bool covers(std::uint16_t slot) const;
-    /// Takes other values of uniforms. Not while it is drawn.
-    void update(const MixSnapshot& snapshot);
+    /// Values of the renderings' uniforms in one revision of a snapshot; nobody changes them.
+    struct Values
+    {
+        std::uint64_t revision = 0;
+        std::vector<osg::ref_ptr<osg::Uniform>> uniforms;
+    };
+    /// Those of a snapshot, for apply(). They are not in the StateSet: contexts may draw different
+    /// frames at the same time.
+    std::shared_ptr<const Values> valuesOf(const MixSnapshot& snapshot);
 
     std::uint64_t lastUsed = 0; ///< For the one who keeps it.
 
@@ -68,7 +81,9 @@ protected:
 private:
     struct Value
     {
-        osg::ref_ptr<osg::Uniform> uniform;
+        osg::Uniform::Type type;
+        std::string merged;
+        int arraySize;
         std::uint16_t slot;
         std::string name;
         std::vector<double> ownValues;
@@ -80,7 +95,8 @@ private:
     MixSet _set;
     Merged _merged;
     std::vector<Value> _values;
-    std::uint64_t _uniformRevision = ~std::uint64_t(0);
+    std::mutex _mutex;
+    std::shared_ptr<const Values> _latest;
 };
 
 } // namespace osgMultiRender

@@ -64,6 +64,7 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
         _limits = limitsOf(state);
     _quietFrames = _mixRevision == snapshot->mixRevision ? _quietFrames + 1 : 0;
     _mixRevision = snapshot->mixRevision;
+    forgetCombinations(*snapshot);
     tryNew(*snapshot, state);
     for (;;)
     {
@@ -76,22 +77,52 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
         if (_all && _all->getSet() == set)
             break;
         const bool showsAny =
-            _all && std::any_of(set.members.begin(), set.members.end(),
-                                [&](const MixSet::Member& m) { return _all->covers(m.slot); });
+            _all && _all->getSet().isTransparent == set.isTransparent &&
+            std::any_of(set.members.begin(), set.members.end(),
+                        [&](const MixSet::Member& m) { return _all->covers(m.slot); });
         osg::ref_ptr<MixProgram> made = build(set, snapshot, state, !showsAny);
         if (made)
             _all = made;
         if (made || !_broken.count(set))
             break;
-        // Each alone is fine: the last one is what has changed.
-        fail(snapshot->slots[set.members.back().slot],
-             "the driver does not link it together with the others");
+        // Each alone is fine: the newest one, of the highest id, is what has changed.
+        const MixSet::Member newest =
+            *std::max_element(set.members.begin(), set.members.end(),
+                              [](const auto& a, const auto& b) { return a.id < b.id; });
+        _together.insert(newest.id);
+        fail(snapshot->slots[newest.slot],
+             "it can't be shown in one program with the others: " + _broken.at(set));
     }
     forget(*snapshot);
     Frame frame;
     frame.isSettled = _quietFrames >= snapshot->settleFrames;
     fillFrame(*snapshot, frame);
     return frame;
+}
+
+/// What failed with others alone is tried again when these are others.
+void MixPrograms::forgetCombinations(const MixSnapshot& snapshot)
+{
+    std::set<std::uint64_t> ids;
+    for (const MixSlot& slot : snapshot.slots)
+        if (slot.rendering)
+            ids.insert(slot.id);
+    if (ids == _ids)
+        return;
+    for (const std::uint64_t id : _together)
+        _failed.erase(id);
+    _together.clear();
+    const auto isGone = [&](std::uint64_t id) { return !ids.count(id); };
+    for (auto at = _tried.begin(); at != _tried.end();)
+        at = isGone(*at) ? _tried.erase(at) : std::next(at);
+    for (auto at = _failed.begin(); at != _failed.end();)
+        at = isGone(at->first) ? _failed.erase(at) : std::next(at);
+    for (auto at = _broken.begin(); at != _broken.end();)
+        at = std::any_of(at->first.members.begin(), at->first.members.end(),
+                         [&](const MixSet::Member& m) { return isGone(m.id); })
+                 ? _broken.erase(at)
+                 : std::next(at);
+    _ids = std::move(ids);
 }
 
 void MixPrograms::fillFrame(const MixSnapshot& snapshot, Frame& frame) const
@@ -118,10 +149,7 @@ void MixPrograms::fillFrame(const MixSnapshot& snapshot, Frame& frame) const
         frame.leftOut.emplace_back(number, why);
     }
     if (_all)
-    {
         _all->lastUsed = _frame;
-        _all->update(snapshot);
-    }
 }
 
 /// Compiles and links each new rendering alone, so that what is wrong is said of it alone.
@@ -156,20 +184,20 @@ void MixPrograms::fail(const MixSlot& slot, const std::string& cause)
 MixSet MixPrograms::allOf(const MixSnapshot& snapshot) const
 {
     MixSet set;
+    set.isTransparent = snapshot.isTransparent;
     for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
         if (snapshot.slots[i].rendering && !_failed.count(snapshot.slots[i].id))
             set.members.push_back({std::uint16_t(i), snapshot.slots[i].id});
     return set;
 }
 
-osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set, const MixSnapshot& snapshot)
+osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto found = _programs.find(set);
     if (found == _programs.end())
         return nullptr;
     found->second->lastUsed = _frame;
-    found->second->update(snapshot);
     return found->second;
 }
 
@@ -211,13 +239,17 @@ osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
     _counts.mergeMilliseconds += merged.statistics.milliseconds;
     osg::ref_ptr<MixProgram> program;
     if (merged.ok)
-        program = new MixProgram(set, std::move(merged), *from);
-    if (!program || !link(*program, state))
+        program = new MixProgram(set, merged, *from);
+    std::string cause;
+    if (!program)
+        cause = errorsOf(merged);
+    else if (!link(*program, state))
+        cause = "the driver does not link it";
+    if (!cause.empty())
     {
-        _broken.insert(set);
+        _broken[set] = cause;
         return nullptr;
     }
-    program->update(*snapshot);
     program->lastUsed = _frame;
     _programs[set] = program;
     return program;

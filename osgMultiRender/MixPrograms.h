@@ -43,7 +43,7 @@ public:
     /// At the head of a frame. Waits for a merge only where there is nothing to show yet.
     Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
     /// The linked program of exactly this set, or null.
-    osg::ref_ptr<MixProgram> find(const MixSet& set, const MixSnapshot& snapshot);
+    osg::ref_ptr<MixProgram> find(const MixSet& set);
     /// Has it made; `waits`: at once.
     osg::ref_ptr<MixProgram> make(const MixSet& set,
                                   const std::shared_ptr<const MixSnapshot>& snapshot,
@@ -65,6 +65,7 @@ private:
     };
 
     void tryNew(const MixSnapshot& snapshot, osg::State& state);
+    void forgetCombinations(const MixSnapshot& snapshot);
     void fail(const MixSlot& slot, const std::string& cause);
     MixSet allOf(const MixSnapshot& snapshot) const;
     osg::ref_ptr<MixProgram> build(const MixSet& set,
@@ -79,9 +80,11 @@ private:
     std::map<MixSet, osg::ref_ptr<MixProgram>> _programs; ///< Linked ones.
     osg::ref_ptr<MixProgram> _all;                        ///< The last good one.
     std::optional<Job> _job;
-    std::set<MixSet> _broken;                     ///< Merged, but not linked.
+    std::map<MixSet, std::string> _broken;        ///< Not merged or not linked, why.
     std::set<std::uint64_t> _tried;               ///< Renderings.
     std::map<std::uint64_t, std::string> _failed; ///< Of these, why.
+    std::set<std::uint64_t> _together;            ///< Failed ones that are fine alone.
+    std::set<std::uint64_t> _ids;                 ///< Of the last frame's renderings.
     std::uint64_t _frame = 0;
     std::uint64_t _mixRevision = 0;
     unsigned int _quietFrames = 0;

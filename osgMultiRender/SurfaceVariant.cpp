@@ -80,7 +80,7 @@ SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snip
 
 SurfaceVariant::SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet,
                                const SurfaceLook& look)
-    : osg::Referenced(true), _key(key), _stateSet(new osg::StateSet)
+    : osg::Referenced(true), _key(key), _look(&look), _stateSet(new osg::StateSet)
 {
     if (snippet.fragment.empty() && snippet.statements.empty())
         _program = const_cast<osg::Program*>(look.getProgram());

@@ -59,6 +59,9 @@ public:
     /// A look, as it is where the snippet adds nothing.
     SurfaceVariant(const SurfaceKey& key, const SurfaceSnippet& snippet, const SurfaceLook& look);
 
+    /// The look that it is of; null for others. To compare, not to use: it may be gone.
+    const SurfaceLook* getLook() const { return _look; }
+
     /// Set by the draw thread when the program did not link; its leaves then show the fixed
     /// function.
     std::atomic<bool> failed{false};
@@ -73,6 +76,7 @@ private:
 
     SurfaceKey _key;
     osg::ref_ptr<osg::Program> _program;
+    const SurfaceLook* _look = nullptr;
     std::string _error;
     osg::ref_ptr<osg::StateSet> _stateSet;
 };

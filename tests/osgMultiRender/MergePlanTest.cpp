@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace mergeChecks;
 
 namespace
@@ -235,6 +237,62 @@ TEST(MergePlanTest, logsAreExplainedWithTheirFilesAndLines)
     // Mesa's own way: the file is in the line's number.
     EXPECT_EQ(merged.explain("0:300012(5): error: y"), "a.vert:12: error: y\n");
     EXPECT_EQ(merged.explain("linking failed\n\n99:1: z"), "linking failed\n99:1: z\n");
+}
+
+TEST(MergePlanTest, depthIsTestedEarlyWhereNoRenderingDiscards)
+{
+    MergeOptions options;
+    options.outside = MergeOutside::Transparent;
+    const Rendering cut = mergeCase(
+        "cut", Head + "void main() { if (uv.x > 0.5) discard; gl_FragColor = vec4(1.0); }");
+    EXPECT_EQ(
+        merge({mergeCase("a", Plain), mergeCase("b", Plain)}, options).fragment.find("discard"),
+        std::string::npos);
+    EXPECT_NE(merge({mergeCase("a", Plain), cut}, options).fragment.find("discard"),
+              std::string::npos);
+}
+
+TEST(MergePlanTest, aPositionThatARenderingInterpolatesIsUsedForTheWeights)
+{
+    MergeOptions options;
+    options.weights =
+        "void at(vec3 p) {} void begin() {} float osgmr_weight(int i) { return 1.0; }";
+    options.begin = "begin();";
+    options.beginAt = "at";
+    const auto calls = [&](const std::string& eye, const std::string& position, const char* call)
+    {
+        const std::string vertex = "varying vec2 uv; varying vec3 n, eye;\nvoid main() { uv = "
+                                   "vec2(0.5); n = gl_Normal; eye = " +
+                                   eye + "; gl_Position = " + position + "; }";
+        const std::string text = Head + "void main() { gl_FragColor = vec4(eye + n, uv.x); }";
+        return countOf(merge({mergeCase("a", text, vertex)}, options).fragment, call);
+    };
+    const std::string usual = "gl_ModelViewProjectionMatrix * gl_Vertex";
+    for (const char* eye :
+         {"vec3(gl_ModelViewMatrix * gl_Vertex)", "(gl_ModelViewMatrix * gl_Vertex).xyz"})
+    {
+        EXPECT_EQ(calls(eye, usual, "    at(osgmr"), 1u) << eye;
+        EXPECT_EQ(calls(eye, usual, "    begin();"), 0u) << eye;
+    }
+    EXPECT_EQ(calls("vec3(gl_ModelViewMatrix * gl_Vertex) * 2.0", usual, "    begin();"), 1u);
+    EXPECT_EQ(calls("vec3(gl_ModelViewMatrix * gl_Vertex)", usual + " + vec4(1.0)", "    begin();"),
+              1u);
+}
+
+TEST(MergePlanTest, earlyFragmentTestsAreNamedAsNotTaken)
+{
+    const Rendering early = mergeCase("early", "#version 420 compatibility\n"
+                                               "layout(early_fragment_tests) in;\n"
+                                               "void main() { gl_FragColor = vec4(1.0); }");
+    const Merged merged = merge({mergeCase("a", Plain), early});
+    ASSERT_TRUE(merged.renderings[1].included);
+    EXPECT_EQ(merged.fragment.find("early_fragment_tests"), std::string::npos);
+    const auto names = [](const MergeMessage& message)
+    {
+        return message.severity == MergeSeverity::Note && message.rendering == 1 &&
+               message.text.find("early: early_fragment_tests is not taken") == 0;
+    };
+    EXPECT_EQ(std::count_if(merged.messages.begin(), merged.messages.end(), names), 1);
 }
 
 } // namespace

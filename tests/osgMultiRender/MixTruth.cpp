@@ -55,6 +55,7 @@ MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoint
                                        const MixWeights& weights) const
 {
     Difference result;
+    double squares = 0.0;
     for (int y = 0; y < _size; ++y)
         for (int x = 0; x < _size; ++x)
         {
@@ -76,10 +77,15 @@ MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoint
             const auto* actual = reinterpret_cast<const float*>(picture.data(x, y));
             double worst = 0.0;
             for (int i = 0; i < 4; ++i)
-                worst = std::max(worst, std::abs(double(actual[i]) - expected[i]));
+            {
+                const double off = double(actual[i]) - expected[i];
+                worst = std::max(worst, std::abs(off));
+                squares += off * off;
+            }
             if (!(worst <= 1.0 / 255.0))
                 ++result.over;
             result.worst = std::max(result.worst, worst);
         }
+    result.rms = std::sqrt(squares / std::max(4 * result.covered, 1));
     return result;
 }

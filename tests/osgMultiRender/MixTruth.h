@@ -27,6 +27,7 @@ public:
     struct Difference
     {
         double worst = 0.0; ///< Of a channel, less what the position's error explains.
+        double rms = 0.0;   ///< Over all channels of covered pixels.
         int covered = 0;    ///< Pixels with a surface.
         int mixed = 0;      ///< Of these, with more than one weight above 0.
         int over = 0;       ///< Of these, off by more than 1/255.
