@@ -33,6 +33,7 @@ struct MixSnapshot
     std::vector<MixSlot> slots;
     std::shared_ptr<const KeyPoints> points = std::make_shared<KeyPoints>();
     MixRules rules;
+    bool isOfFrame = false;     ///< Renderings read the frame, in a second pass.
     bool isTransparent = false; ///< What is missing shows what lies behind.
     bool prunes = true;
     unsigned int settleFrames = 10;

@@ -2,6 +2,7 @@
 #include <osgMultiRender/MixedScene.h>
 
 #include <osgMultiRender/MixFile.h>
+#include <osgMultiRender/MixFrame.h>
 #include <osgMultiRender/MixKeys.h>
 #include <osgMultiRender/MixMarkers.h>
 #include <osgMultiRender/MixPass.h>
@@ -9,6 +10,7 @@
 #include <osg/MatrixTransform>
 #include <osg/Notify>
 #include <osgGA/EventVisitor>
+#include <osgUtil/CullVisitor>
 
 #include <algorithm>
 #include <cmath>
@@ -223,6 +225,29 @@ bool MixedScene::isTransparent() const
     return getSnapshot()->isTransparent;
 }
 
+void MixedScene::setInput(MixInput input)
+{
+    change(
+        [&](MixSnapshot& snapshot)
+        {
+            // The programs of one are none for the other.
+            if (snapshot.isOfFrame != (input == MixInput::Frame))
+                _resources = std::make_shared<MixResources>();
+            snapshot.isOfFrame = input == MixInput::Frame;
+        });
+}
+
+MixInput MixedScene::getInput() const
+{
+    return getSnapshot()->isOfFrame ? MixInput::Frame : MixInput::Surface;
+}
+
+std::shared_ptr<MixResources> MixedScene::getResources() const
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    return _resources;
+}
+
 bool MixedScene::setUniform(unsigned int number, const std::string& name,
                             const std::vector<double>& values)
 {
@@ -313,6 +338,8 @@ void MixedScene::setMixText(const std::string& text)
     change(
         [&](MixSnapshot& snapshot)
         {
+            if (snapshot.isOfFrame != other->_snapshot->isOfFrame)
+                _resources = std::make_shared<MixResources>();
             const std::uint64_t mix = snapshot.mixRevision, uniforms = snapshot.uniformRevision;
             snapshot = *other->_snapshot;
             snapshot.mixRevision = mix + 1;
@@ -338,9 +365,11 @@ osg::ref_ptr<osg::Node> MixedScene::makeMarks()
         return nullptr;
     const float size = bound.valid() ? std::max(0.012f * bound.radius(), 1e-6f) : 1.0f;
     if (!_drawnMarks || std::abs(size - _markSize) > 0.1f * size)
+    {
         _drawnMarks =
             makeMixMarkers(_points, _snapshot->points->getMode(), _marks == MixMarks::Lines, size);
-    _markSize = size;
+        _markSize = size;
+    }
     return _drawnMarks;
 }
 
@@ -348,8 +377,12 @@ void MixedScene::traverse(osg::NodeVisitor& visitor)
 {
     if (auto* events = dynamic_cast<osgGA::EventVisitor*>(&visitor); events && getAnswersKeys())
         answerKeys(*this, *events);
-    SurfaceGroup::traverse(visitor);
-    if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR)
+    const bool isCull = visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
+    if (isCull && getInput() == MixInput::Frame)
+        cullFrame(visitor);
+    else
+        SurfaceGroup::traverse(visitor);
+    if (!isCull)
         return;
     if (const osg::ref_ptr<osg::Node> marks = makeMarks())
     {
@@ -359,9 +392,39 @@ void MixedScene::traverse(osg::NodeVisitor& visitor)
     }
 }
 
+/// Surfaces as they are, then the pass over the frame.
+void MixedScene::cullFrame(osg::NodeVisitor& visitor)
+{
+    osg::Group::traverse(visitor);
+    auto* cullVisitor = visitor.asCullVisitor();
+    if (!cullVisitor || !cullVisitor->getCurrentRenderBin() || !cullVisitor->getModelViewMatrix())
+        return;
+    osg::ref_ptr<osg::StateSet> state;
+    {
+        std::lock_guard<std::mutex> lock(_settings);
+        if (!_frameState)
+            _frameState = makeMixFrameState();
+        state = _frameState;
+    }
+    addMixFrame(*cullVisitor, *state, getBound().center(), getResources(), getSnapshot(),
+                keysToScene() * *cullVisitor->getModelViewMatrix());
+}
+
+std::vector<Plan> MixedScene::getPlans() const
+{
+    if (getInput() == MixInput::Surface)
+        return SurfaceGroup::getPlans();
+    const std::shared_ptr<MixResources> resources = getResources();
+    std::lock_guard<std::mutex> lock(resources->mutex);
+    std::vector<Plan> plans;
+    for (const auto& [camera, plan] : resources->framePlans)
+        plans.push_back(plan);
+    return plans;
+}
+
 std::string MixedScene::getSource() const
 {
-    return _resources->programs.getSource();
+    return getResources()->programs.getSource();
 }
 
 /// From the node that the key points are attached to.
@@ -384,15 +447,16 @@ osg::Matrixd MixedScene::keysToScene() const
 
 std::unique_ptr<SurfacePass> MixedScene::createPass() const
 {
-    return std::make_unique<MixPass>(_resources, getSnapshot(), keysToScene());
+    return std::make_unique<MixPass>(getResources(), getSnapshot(), keysToScene());
 }
 
 void MixedScene::resizeGLObjectBuffers(unsigned int maxSize)
 {
     SurfaceGroup::resizeGLObjectBuffers(maxSize);
-    _resources->programs.resizeGLObjectBuffers(maxSize);
-    std::lock_guard<std::mutex> lock(_resources->mutex);
-    for (auto& [context, states] : _resources->free)
+    const std::shared_ptr<MixResources> resources = getResources();
+    resources->programs.resizeGLObjectBuffers(maxSize);
+    std::lock_guard<std::mutex> lock(resources->mutex);
+    for (auto& [context, states] : resources->free)
         for (auto& state : states)
             state->getStateSet()->resizeGLObjectBuffers(maxSize);
 }
@@ -400,9 +464,11 @@ void MixedScene::resizeGLObjectBuffers(unsigned int maxSize)
 void MixedScene::releaseGLObjects(osg::State* state) const
 {
     SurfaceGroup::releaseGLObjects(state);
-    _resources->programs.releaseGLObjects(state);
-    std::lock_guard<std::mutex> lock(_resources->mutex);
-    for (const auto& [context, states] : _resources->free)
+    const std::shared_ptr<MixResources> resources = getResources();
+    resources->frames.releaseGLObjects(state);
+    resources->programs.releaseGLObjects(state);
+    std::lock_guard<std::mutex> lock(resources->mutex);
+    for (const auto& [context, states] : resources->free)
         for (const auto& each : states)
             each->getStateSet()->releaseGLObjects(state);
 }

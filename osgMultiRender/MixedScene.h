@@ -26,6 +26,13 @@ enum class MixMarks
     Lines   ///< These, and what joins them.
 };
 
+/// What the renderings are shown on.
+enum class MixInput
+{
+    Surface, ///< The surfaces of the subgraph, instead of their own look.
+    Frame    ///< The frame, when all of it is drawn: for renderings of images.
+};
+
 /// Shows its subgraph as a mix of renderings, weighted by the distance to key points.
 ///
 /// Any number of complete GPU programs, built-in or imported, become one program; what a surface
@@ -81,6 +88,15 @@ public:
     void setTransparent(bool transparent);
     bool isTransparent() const;
 
+    /// With Frame surfaces keep their own look, or that of MixedScenes below. When the view has
+    /// been drawn, a second pass replaces each pixel of the viewport by the mix of what renderings
+    /// make of the picture, which they read as the model's texture on unit 0; distances are those
+    /// of the surface in the pixel, from the depth buffer. Where nothing was drawn there is no
+    /// distance: what has an infinite dr3 counts there. Several samples become one. Not for targets
+    /// without depth or of several colour buffers: they keep their picture, with a warning.
+    void setInput(MixInput input);
+    MixInput getInput() const;
+
     /// Sets a uniform of a rendering, by the name that its author gave it: all components of all
     /// elements, 0 and 1 for bool. Those of samplers, blocks and OSG (`osg_`) are not taken.
     bool setUniform(unsigned int number, const std::string& name,
@@ -113,6 +129,8 @@ public:
     /// The text of the program that shows all renderings, both stages; empty before it was drawn.
     std::string getSource() const;
 
+    std::vector<Plan> getPlans() const override;
+
     void traverse(osg::NodeVisitor& visitor) override;
     void resizeGLObjectBuffers(unsigned int maxSize) override;
     void releaseGLObjects(osg::State* state = nullptr) const override;
@@ -128,6 +146,8 @@ private:
     std::shared_ptr<const MixSnapshot> getSnapshot() const;
     osg::Matrixd keysToScene() const;
     osg::ref_ptr<osg::Node> makeMarks();
+    void cullFrame(osg::NodeVisitor& visitor);
+    std::shared_ptr<MixResources> getResources() const;
 
     mutable std::mutex _settings;
     std::shared_ptr<const MixSnapshot> _snapshot;
@@ -137,7 +157,8 @@ private:
     bool _answersKeys = true;
     osg::ref_ptr<osg::Node> _drawnMarks; ///< Of these key points; null: to be made.
     float _markSize = 0.0f;
-    std::shared_ptr<MixResources> _resources;
+    std::shared_ptr<MixResources> _resources; ///< Another one when the input changes.
+    osg::ref_ptr<osg::StateSet> _frameState;  ///< Null before the first pass over a frame.
 };
 
 } // namespace osgMultiRender
