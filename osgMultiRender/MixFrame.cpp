@@ -23,9 +23,10 @@ constexpr int LastBin = 1000000;
 class MixFrame : public osg::Drawable
 {
 public:
-    MixFrame(std::shared_ptr<MixResources> resources, std::shared_ptr<const MixSnapshot> snapshot,
-             const osg::Matrixd& keysToEye)
-        : _resources(std::move(resources)), _snapshot(std::move(snapshot)), _keysToEye(keysToEye)
+    MixFrame(osg::StateSet& stateSet, std::shared_ptr<MixResources> resources,
+             std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToEye)
+        : _leafState(&stateSet), _resources(std::move(resources)), _snapshot(std::move(snapshot)),
+          _keysToEye(keysToEye)
     {
         setUseDisplayList(false);
         setUseVertexBufferObjects(false);
@@ -95,7 +96,7 @@ private:
         return why;
     }
 
-    static void drawTriangle(osg::RenderInfo& renderInfo, MixFrameTargets& targets, MixDraw& draw)
+    void drawTriangle(osg::RenderInfo& renderInfo, MixFrameTargets& targets, MixDraw& draw) const
     {
         osg::State& state = *renderInfo.getState();
         const osg::Viewport& viewport = *state.getCurrentViewport();
@@ -112,6 +113,8 @@ private:
             new osg::RefMatrix(osg::Matrixd::inverse(state.getProjectionMatrix()));
         const osg::ref_ptr<osg::RefMatrix> before = new osg::RefMatrix(state.getModelViewMatrix());
         state.applyModelViewMatrix(place.get());
+        // A leaf's own is applied, but does not lie on the stack.
+        state.pushStateSet(_leafState);
         state.pushStateSet(draw.getStateSet());
         state.pushStateSet(program.getStateSet());
         state.pushStateSet(&own);
@@ -119,12 +122,13 @@ private:
         if (state.getUseModelViewAndProjectionUniforms())
             state.applyModelViewAndProjectionUniformsIfRequired();
         targets.getTriangle().draw(renderInfo);
-        for (int i = 0; i < 3; ++i)
+        for (int i = 0; i < 4; ++i)
             state.popStateSet();
         state.apply();
         state.applyModelViewMatrix(before.get());
     }
 
+    osg::ref_ptr<osg::StateSet> _leafState;
     std::shared_ptr<MixResources> _resources;
     std::shared_ptr<const MixSnapshot> _snapshot;
     osg::Matrixd _keysToEye;
@@ -154,7 +158,7 @@ void addMixFrame(osgUtil::CullVisitor& visitor, osg::StateSet& stateSet, const o
                  std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToEye)
 {
     osg::ref_ptr<MixFrame> frame =
-        new MixFrame(std::move(resources), std::move(snapshot), keysToEye);
+        new MixFrame(stateSet, std::move(resources), std::move(snapshot), keysToEye);
     frame->setInitialBound(osg::BoundingBox(center, center));
     visitor.pushStateSet(&stateSet);
     // Past the tests for what is in view.

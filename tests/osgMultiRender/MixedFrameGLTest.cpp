@@ -198,6 +198,7 @@ TEST(MixedFrameSamplesGLTest, severalSamplesAPixelBecomeOne)
     scene->addRendering(importNamed("sepia"));
     const osg::ref_ptr<osg::Image> picture = viewer.render(scene, camera, 128, 128);
     support::writeImage(*picture, "mixedFrameSamples");
+    support::writeImage(*plain, "mixedFrameSamplesPlain");
     const osg::ref_ptr<osg::Image> expected = applied(*plain, sepiaAt);
     double worst = 0.0;
     for (unsigned int y = 0; y < 128; ++y)
