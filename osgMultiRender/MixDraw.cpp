@@ -15,6 +15,11 @@ MixDraw::MixDraw(std::shared_ptr<MixResources> resources,
 void MixDraw::begin(osg::State& state, const osg::Matrixd& keysToEye)
 {
     _contextID = state.getContextID();
+    const std::shared_ptr<const MixSnapshot> wanted = _snapshot;
+    _snapshot = _resources->programs.withoutBroken(wanted, state);
+    for (std::size_t i = 0; i < _snapshot->slots.size(); ++i)
+        if (_snapshot->slots[i].id != wanted->slots[i].id)
+            _replaced.push_back(i);
     _frame = _resources->programs.begin(_snapshot, state);
     _weights = weightsOf(*_snapshot);
     {
@@ -71,6 +76,11 @@ void MixDraw::fillPlan(Plan& plan) const
         plan.entries.push_back({"rendering " + std::to_string(slot) + " '" +
                                     _snapshot->slots[slot].rendering->name + "'",
                                 PlanEntry::Decision::Dropped, why});
+    for (const std::size_t slot : _replaced)
+        plan.entries.push_back({"rendering " + std::to_string(slot) + " '" +
+                                    _snapshot->slots[slot].rendering->name + "'",
+                                PlanEntry::Decision::Drawn,
+                                "as it was before a change that can't be used"});
     const MixPrograms::Counts counts = _resources->programs.getCounts();
     plan.counts["mix.programs"] = counts.kept;
     plan.counts["mix.programs.merged"] = counts.merged;

@@ -49,6 +49,7 @@ private:
 
     std::shared_ptr<MixResources> _resources;
     std::shared_ptr<const MixSnapshot> _snapshot;
+    std::vector<std::size_t> _replaced; ///< Slots that show what they had before.
     MixPrograms::Frame _frame;
     MixWeights _weights;
     osg::ref_ptr<MixState> _state;

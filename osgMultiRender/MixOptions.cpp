@@ -299,6 +299,8 @@ const std::vector<MixOption>& mixOptions()
             "show",
             {{"off", MixMarks::Off}, {"points", MixMarks::Points}, {"lines", MixMarks::Lines}},
             &Scene::getMarks, &Scene::setMarks, "Key points as red spheres; with what joins them"),
+        flag("watch", &Scene::isWatching, &Scene::setWatching,
+             "Imports files anew when they change: those of renderings, and the mix file"),
         flag("keys", &Scene::getAnswersKeys, &Scene::setAnswersKeys,
              "Answers to keys in osgviewer"),
     };

@@ -25,6 +25,7 @@ struct MixSlot
     std::uint64_t id = 0;                       ///< Of this rendering, never given again.
     MixRange range;
     MixUniforms uniforms;
+    std::shared_ptr<const MixSlot> before; ///< What it has replaced; shown while this one fails.
 };
 
 /// All settings of one frame; never changed once a frame has it.

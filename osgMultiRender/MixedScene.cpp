@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixedScene.h>
 
-#include <osgMultiRender/MixFile.h>
+#include <osgMultiRender/MixDrag.h>
 #include <osgMultiRender/MixFrame.h>
 #include <osgMultiRender/MixKeys.h>
 #include <osgMultiRender/MixMarkers.h>
 #include <osgMultiRender/MixPass.h>
+#include <osgMultiRender/MixWatch.h>
 
 #include <osg/MatrixTransform>
 #include <osg/Notify>
@@ -38,7 +39,8 @@ std::vector<glm::dvec3> toGlm(const std::vector<osg::Vec3d>& points)
 } // namespace
 
 MixedScene::MixedScene()
-    : _snapshot(std::make_shared<MixSnapshot>()), _resources(std::make_shared<MixResources>())
+    : _snapshot(std::make_shared<MixSnapshot>()), _resources(std::make_shared<MixResources>()),
+      _drag(std::make_unique<MixDrag>())
 {
     // So that parents lead event visitors here; not for children, which have their own.
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
@@ -47,12 +49,16 @@ MixedScene::MixedScene()
 MixedScene::MixedScene(const MixedScene& other, const osg::CopyOp& copyop)
     : SurfaceGroup(other, copyop), _snapshot(other.getSnapshot()), _points(other.getKeyPoints()),
       _keyNode(const_cast<osg::Node*>(other.getKeyNode())), _marks(other.getMarks()),
-      _answersKeys(other.getAnswersKeys()), _resources(std::make_shared<MixResources>())
+      _answersKeys(other.getAnswersKeys()), _resources(std::make_shared<MixResources>()),
+      _drag(std::make_unique<MixDrag>())
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
-MixedScene::~MixedScene() = default;
+MixedScene::~MixedScene()
+{
+    _watch.reset(); // before what its thread uses
+}
 
 std::shared_ptr<const MixSnapshot> MixedScene::getSnapshot() const
 {
@@ -96,7 +102,8 @@ unsigned int MixedScene::addRendering(const Rendering& rendering, const MixRange
             number = static_cast<unsigned int>(place);
             if (place == snapshot.slots.size())
                 snapshot.slots.emplace_back();
-            snapshot.slots[place] = {std::make_shared<Rendering>(rendering), nextId(), range, {}};
+            snapshot.slots[place] = {
+                std::make_shared<Rendering>(rendering), nextId(), range, {}, nullptr};
             ++snapshot.uniformRevision;
         });
     if (number == None)
@@ -110,6 +117,12 @@ bool MixedScene::setRendering(unsigned int number, const Rendering& rendering)
     return changeSlot(number,
                       [&](MixSnapshot& snapshot, MixSlot& slot)
                       {
+                          auto before = std::make_shared<MixSlot>(slot);
+                          if (_resources->programs.hasFailed(slot.id))
+                              slot.before = before->before;
+                          else
+                              slot.before = before;
+                          before->before = nullptr;
                           slot.rendering = std::make_shared<Rendering>(rendering);
                           slot.id = nextId();
                           ++snapshot.uniformRevision;
@@ -326,36 +339,6 @@ bool MixedScene::getAnswersKeys() const
     return _answersKeys;
 }
 
-void MixedScene::setMixText(const std::string& text)
-{
-    std::string error;
-    const osg::ref_ptr<MixedScene> other = new MixedScene;
-    if (!applyMix(*other, text, {}, error))
-    {
-        OSG_WARN << "osgMultiRender::MixedScene: " << error << std::endl;
-        return;
-    }
-    change(
-        [&](MixSnapshot& snapshot)
-        {
-            if (snapshot.isOfFrame != other->_snapshot->isOfFrame)
-                _resources = std::make_shared<MixResources>();
-            const std::uint64_t mix = snapshot.mixRevision, uniforms = snapshot.uniformRevision;
-            snapshot = *other->_snapshot;
-            snapshot.mixRevision = mix + 1;
-            snapshot.uniformRevision = uniforms + 1;
-            _points = other->_points;
-            _marks = other->_marks;
-            _answersKeys = other->_answersKeys;
-            _drawnMarks = nullptr;
-        });
-}
-
-std::string MixedScene::getMixText() const
-{
-    return formatMix(*this);
-}
-
 /// Some thousandths of the scene; made anew when points or the scene's size change.
 osg::ref_ptr<osg::Node> MixedScene::makeMarks()
 {
@@ -376,7 +359,7 @@ osg::ref_ptr<osg::Node> MixedScene::makeMarks()
 void MixedScene::traverse(osg::NodeVisitor& visitor)
 {
     if (auto* events = dynamic_cast<osgGA::EventVisitor*>(&visitor); events && getAnswersKeys())
-        answerKeys(*this, *events);
+        answerKeys(*this, *events, *_drag);
     const bool isCull = visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR;
     if (isCull && getInput() == MixInput::Frame)
         cullFrame(visitor);

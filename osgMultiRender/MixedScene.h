@@ -15,6 +15,8 @@
 namespace osgMultiRender
 {
 
+class MixDrag;
+class MixWatch;
 struct MixResources;
 struct MixSnapshot;
 
@@ -60,7 +62,8 @@ public:
     /// free. None, with a warning, if there are MaxRenderings.
     unsigned int addRendering(const Rendering& rendering, const MixRange& range = MixRange());
     /// Puts another one in its place, which keeps range and values of uniforms: the one before
-    /// stays on screen until the new one is linked. False for a number that none has; so below.
+    /// stays on screen until the new one is linked, and where that can't be used. False for a
+    /// number that none has; so below.
     bool setRendering(unsigned int number, const Rendering& rendering);
     bool removeRendering(unsigned int number);
     /// Those that are there, in order.
@@ -117,7 +120,8 @@ public:
 
     void setMarks(MixMarks marks);
     MixMarks getMarks() const;
-    /// Whether the scene answers to mixKeys().
+    /// Whether the scene answers to mixKeys(), and to the mouse: with Ctrl and the left button a
+    /// marker is dragged, with Shift a click takes it away or makes a new one on a surface.
     void setAnswersKeys(bool answers);
     bool getAnswersKeys() const;
 
@@ -125,6 +129,23 @@ public:
     /// warning, and then nothing counts.
     void setMixText(const std::string& text);
     std::string getMixText() const;
+
+    /// Whether files are looked after once a second, in a thread of its own: those of renderings,
+    /// and the mix file. What has changed is imported anew, as setRendering() does it; a mix file's
+    /// renderings, points and settings take the place of all that are there. A file with errors
+    /// leaves what is shown, with one warning that names it.
+    void setWatching(bool watches);
+    bool isWatching() const;
+    /// The mix file that is looked after; "" for none. readMixFile() sets it.
+    void setMixFile(const std::string& fileName);
+    std::string getMixFile() const;
+    /// Reads all these files again, changed or not.
+    void readFilesAgain();
+
+    /// All settings, without the subgraph.
+    osg::ref_ptr<MixedScene> cloneSettings() const;
+    /// Takes all settings of another one at once; whether files are looked after stays.
+    void takeSettings(const MixedScene& other);
 
     /// The text of the program that shows all renderings, both stages; empty before it was drawn.
     std::string getSource() const;
@@ -146,6 +167,8 @@ private:
     std::shared_ptr<const MixSnapshot> getSnapshot() const;
     osg::Matrixd keysToScene() const;
     osg::ref_ptr<osg::Node> makeMarks();
+    void reimport(const std::vector<std::string>& files, bool all);
+    std::vector<std::string> getWatchedFiles() const;
     void cullFrame(osg::NodeVisitor& visitor);
     std::shared_ptr<MixResources> getResources() const;
 
@@ -158,7 +181,11 @@ private:
     osg::ref_ptr<osg::Node> _drawnMarks; ///< Of these key points; null: to be made.
     float _markSize = 0.0f;
     std::shared_ptr<MixResources> _resources; ///< Another one when the input changes.
-    osg::ref_ptr<osg::StateSet> _frameState;  ///< Null before the first pass over a frame.
+    std::unique_ptr<MixDrag> _drag;           ///< Of the thread of events.
+    std::string _mixFile;
+    mutable std::mutex _watching;
+    std::unique_ptr<MixWatch> _watch;        ///< Null: files are not looked after.
+    osg::ref_ptr<osg::StateSet> _frameState; ///< Null before the first pass over a frame.
 };
 
 } // namespace osgMultiRender
