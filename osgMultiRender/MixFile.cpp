@@ -252,21 +252,36 @@ bool applyMix(MixedScene& scene, const std::string& text, const std::string& fil
     ParsedMix mix;
     const auto apply = [&](MixedScene& to)
     {
+        std::vector<unsigned int> numbers;
         for (const ParsedMix::Entry& entry : mix.renderings)
         {
             const unsigned int number = to.addRendering(entry.rendering, entry.range);
+            numbers.push_back(number);
             for (const auto& [name, values] : entry.uniforms)
                 to.setUniform(number, name, values);
         }
         if (mix.hasPoints)
             to.setKeyPoints(mix.points, to.getKeyMode());
+        // Numbers in a mix are places in its list.
+        if (const auto base = mix.options.find("base"); base != mix.options.end())
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                if (base->second == std::to_string(i))
+                {
+                    base->second = std::to_string(numbers[i]);
+                    break;
+                }
         return setMixOptions(to, mix.options, error);
     };
-    // First into the empty, so that a mistake changes nothing.
+    // First into a copy, so that a mistake changes nothing.
     if (!reader.read(text, mix))
         error = reader.getError();
-    else if (const osg::ref_ptr<MixedScene> trial = new MixedScene(scene); apply(*trial))
-        return apply(scene);
+    else if (const osg::ref_ptr<MixedScene> trial = scene.cloneSettings(); apply(*trial))
+    {
+        scene.takeSettings(*trial);
+        if (mix.options.count("watch"))
+            scene.setWatching(trial->isWatching());
+        return true;
+    }
     error = who + ": " + error;
     return false;
 }
@@ -275,7 +290,15 @@ bool readMixFile(MixedScene& scene, const std::string& fileName, std::string& er
 {
     std::string text;
     if (readTextFile(fileName, text, error))
-        return applyMix(scene, text, fileName, error);
+    {
+        // First: a mix may say that files are looked after, this one as well.
+        const std::string before = scene.getMixFile();
+        scene.setMixFile(fileName);
+        if (applyMix(scene, text, fileName, error))
+            return true;
+        scene.setMixFile(before);
+        return false;
+    }
     error = fileName + ": " + error;
     return false;
 }
@@ -296,7 +319,8 @@ std::string formatMix(const MixedScene& scene)
         for (const RenderingUniform& uniform : rendering->uniforms)
             if (const auto values = scene.getUniform(number, uniform.name);
                 values != uniform.values)
-                entry["uniforms"][uniform.name] = values;
+                for (const double value : values)
+                    entry["uniforms"][uniform.name].push_back(formatDistance(value));
         json["renderings"].push_back(entry);
     }
     for (const osg::Vec3d& point : scene.getKeyPoints())
@@ -314,7 +338,8 @@ std::string formatMix(const MixedScene& scene)
         if (value != option.format(*defaults))
             json[option.name] = value;
     }
-    return json.dump(2);
+    // Texts of renderings need not be UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace);
 }
 
 } // namespace osgMultiRender

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixKeys.h>
 
-#include <osgMultiRender/Import.h>
+#include <osgMultiRender/MixDrag.h>
 #include <osgMultiRender/MixedScene.h>
 
 #include <osg/ApplicationUsage>
-#include <osg/Transform>
-#include <osg/View>
 #include <osgGA/EventVisitor>
-#include <osgUtil/IntersectionVisitor>
-#include <osgUtil/LineSegmentIntersector>
 
 #include <algorithm>
 #include <optional>
@@ -31,32 +27,6 @@ using KeyEvent = osgGA::GUIEventAdapter;
     return true;
 }();
 
-osg::Matrixd worldTo(const osg::Node& node)
-{
-    const osg::NodePathList paths = node.getParentalNodePaths();
-    return paths.empty() ? osg::Matrixd() : osg::computeWorldToLocal(paths.front());
-}
-
-/// The surface of the scene under the mouse, in the coordinates of the key points.
-std::optional<osg::Vec3d> placeUnder(MixedScene& scene, const KeyEvent& event,
-                                     osgGA::EventVisitor& visitor)
-{
-    auto* view = dynamic_cast<osg::View*>(visitor.getActionAdapter());
-    if (!view || !view->getCamera())
-        return {};
-    osg::ref_ptr<osgUtil::LineSegmentIntersector> ray = new osgUtil::LineSegmentIntersector(
-        osgUtil::Intersector::PROJECTION, event.getXnormalized(), event.getYnormalized());
-    osgUtil::IntersectionVisitor intersect(ray);
-    view->getCamera()->accept(intersect);
-    for (const auto& hit : ray->getIntersections())
-        if (std::find(hit.nodePath.begin(), hit.nodePath.end(), &scene) != hit.nodePath.end())
-        {
-            const osg::ref_ptr<const osg::Node> keys = scene.getKeyNode();
-            return hit.getWorldIntersectPoint() * worldTo(keys ? *keys : scene);
-        }
-    return {};
-}
-
 void scaleRanges(MixedScene& scene, double factor)
 {
     for (const unsigned int number : scene.getRenderings())
@@ -66,13 +36,6 @@ void scaleRanges(MixedScene& scene, double factor)
             *dr *= factor;
         scene.setRange(number, range);
     }
-}
-
-void addPoint(MixedScene& scene, const osg::Vec3d& place)
-{
-    std::vector<osg::Vec3d> points = scene.getKeyPoints();
-    points.push_back(place);
-    scene.setKeyPoints(points, scene.getKeyMode());
 }
 
 /// The one that is nearest to a place: moves there, or goes.
@@ -92,15 +55,8 @@ void changeNearest(MixedScene& scene, const osg::Vec3d& place, bool removes)
     scene.setKeyPoints(points, scene.getKeyMode());
 }
 
-/// The looks before stay until the new ones are linked.
-void reimport(MixedScene& scene)
-{
-    for (const unsigned int number : scene.getRenderings())
-        if (const std::string file = scene.getRendering(number)->fileName; !file.empty())
-            scene.setRendering(number, importRendering(file));
-}
-
-void answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisitor& visitor)
+/// Whether it had something to do with this scene.
+bool answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisitor& visitor)
 {
     switch (key)
     {
@@ -117,17 +73,17 @@ void answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisi
         scaleRanges(scene, 1.1);
         break;
     case 'R':
-        reimport(scene);
+        scene.readFilesAgain();
         break;
     default:
-        if (const std::optional<osg::Vec3d> place = placeUnder(scene, event, visitor))
-        {
-            if (key == 'Y')
-                addPoint(scene, *place);
-            else
-                changeNearest(scene, *place, key == 'X');
-        }
+        const std::optional<osg::Vec3d> place = placeUnder(scene, event, visitor);
+        if (place && key == 'Y')
+            addPoint(scene, *place);
+        else if (place)
+            changeNearest(scene, *place, key == 'X');
+        return place.has_value(); // another scene may lie there
     }
+    return true;
 }
 
 } // namespace
@@ -147,21 +103,25 @@ const std::vector<MixKey>& mixKeys()
     return keys;
 }
 
-void answerKeys(MixedScene& scene, osgGA::EventVisitor& visitor)
+void answerKeys(MixedScene& scene, osgGA::EventVisitor& visitor, MixDrag& drag)
 {
     for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
     {
         KeyEvent* event = each->asGUIEventAdapter();
-        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
+        if (!event || event->getHandled())
             continue;
-        for (const MixKey& key : mixKeys())
-            if (event->getKey() == key.key)
-            {
-                answer(key.key, scene, *event, visitor);
-                event->setHandled(true);
-                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
-                    viewer->requestRedraw();
-            }
+        bool isAnswered = false;
+        if (event->getEventType() != KeyEvent::KEYDOWN)
+            isAnswered = drag.answer(scene, *event, visitor);
+        else
+            for (const MixKey& key : mixKeys())
+                if (event->getKey() == key.key)
+                    isAnswered = answer(key.key, scene, *event, visitor);
+        if (!isAnswered)
+            continue;
+        event->setHandled(true);
+        if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
+            viewer->requestRedraw();
     }
 }
 

@@ -13,6 +13,7 @@ class EventVisitor;
 namespace osgMultiRender
 {
 
+class MixDrag;
 class MixedScene;
 
 /// A key of the viewer that MixedScenes answer to. None of osgviewer's own.
@@ -26,7 +27,7 @@ struct MixKey
 /// (key h) has them.
 OSGMULTIRENDER_EXPORT const std::vector<MixKey>& mixKeys();
 
-/// Answers to the key events of an event traversal.
-void answerKeys(MixedScene& scene, osgGA::EventVisitor& visitor);
+/// Answers to the keys and the mouse of an event traversal.
+void answerKeys(MixedScene& scene, osgGA::EventVisitor& visitor, MixDrag& drag);
 
 } // namespace osgMultiRender

@@ -283,6 +283,9 @@ const std::vector<MixOption>& mixOptions()
         {"background", "none|transparent|<#rrggbb>|<#rrggbbaa>",
          "What takes it without a base: black, what lies behind, a colour", parseBackground,
          formatBackground},
+        choice<MixInput>("input", {{"surface", MixInput::Surface}, {"frame", MixInput::Frame}},
+                         &Scene::getInput, &Scene::setInput,
+                         "What renderings are shown on: surfaces; the frame, in a second pass"),
         {"uniforms", "<rendering>.<uniform>=<values>;…", "Values of uniforms, as phong.gloss=60",
          parseUniforms, formatUniforms},
         flag("pruning", &Scene::getPruning, &Scene::setPruning,
@@ -296,6 +299,8 @@ const std::vector<MixOption>& mixOptions()
             "show",
             {{"off", MixMarks::Off}, {"points", MixMarks::Points}, {"lines", MixMarks::Lines}},
             &Scene::getMarks, &Scene::setMarks, "Key points as red spheres; with what joins them"),
+        flag("watch", &Scene::isWatching, &Scene::setWatching,
+             "Imports files anew when they change: those of renderings, and the mix file"),
         flag("keys", &Scene::getAnswersKeys, &Scene::setAnswersKeys,
              "Answers to keys in osgviewer"),
     };

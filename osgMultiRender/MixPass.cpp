@@ -4,7 +4,6 @@
 #include <osgMultiRender/MixBounds.h>
 #include <osgMultiRender/SurfaceFrame.h>
 
-#include <osg/BlendFunc>
 #include <osg/GLExtensions>
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
@@ -41,7 +40,7 @@ glm::dvec3 toGlm(const osg::Vec3d& v)
 
 MixPass::MixPass(std::shared_ptr<MixResources> resources,
                  std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& toScene)
-    : _resources(std::move(resources)), _snapshot(std::move(snapshot)), _keysToEye(toScene)
+    : _draw(std::move(resources), std::move(snapshot)), _keysToEye(toScene)
 {
 }
 
@@ -55,46 +54,8 @@ void MixPass::cull(osgUtil::CullVisitor& visitor, SurfaceGroup&, const osg::Stat
 
 void MixPass::begin(osg::RenderInfo& renderInfo, const SurfaceFrame&)
 {
-    osg::State& state = *renderInfo.getState();
-    _contextID = state.getContextID();
     _eyeToKeys = osg::Matrixd::inverse(_keysToEye);
-    _frame = _resources->programs.begin(_snapshot, state);
-    _weights = weightsOf(*_snapshot);
-    {
-        std::lock_guard<std::mutex> lock(_resources->mutex);
-        auto& free = _resources->free[_contextID];
-        if (!free.empty())
-        {
-            _state = free.back();
-            free.pop_back();
-        }
-    }
-    if (!_state)
-        _state = new MixState(MixUnit);
-    _state->update(*_snapshot->points, _weights, _keysToEye);
-    osg::StateSet& stateSet = *_state->getStateSet();
-    const auto mode = osg::StateAttribute::OVERRIDE;
-    if (_snapshot->isTransparent)
-        stateSet.setAttributeAndModes(new osg::BlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA),
-                                      mode | osg::StateAttribute::ON);
-    else
-        stateSet.removeAttribute(osg::StateAttribute::BLENDFUNC);
-}
-
-/// Renderings that are not shown have no range, so that the rules do not count them.
-MixWeights MixPass::weightsOf(const MixSnapshot& snapshot) const
-{
-    std::vector<MixRange> ranges;
-    for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
-    {
-        constexpr double never = std::numeric_limits<double>::infinity();
-        ranges.push_back(_frame.isShown[i] ? snapshot.slots[i].range
-                                           : MixRange{never, never, never, never});
-    }
-    MixRules rules = snapshot.rules;
-    if (rules.base >= int(ranges.size()) || (rules.base >= 0 && !_frame.isShown[rules.base]))
-        rules.base = -1;
-    return MixWeights(ranges, rules);
+    _draw.begin(*renderInfo.getState(), _keysToEye);
 }
 
 /// Those whose weight is not 0 all over the leaf.
@@ -117,69 +78,67 @@ MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
                   bounds.radius() * toEye.getScale().length());
     }
     const std::vector<MixWeights::Bounds> weights =
-        weightsOver(*_snapshot->points, _weights, box, margin, MaxDistances);
+        weightsOver(*_draw.getSnapshot().points, _draw.getWeights(), box, margin, MaxDistances);
     MixSet set;
     for (std::size_t i = 0; i + 1 < weights.size(); ++i)
-        if (!weights[i].isZero() && _frame.isShown[i])
+        if (!weights[i].isZero() && _draw.getFrame().isShown[i])
         {
-            set.members.push_back({std::uint16_t(i), _snapshot->slots[i].id});
+            set.members.push_back({std::uint16_t(i), _draw.getSnapshot().slots[i].id});
             set.isWhole = weights[i].isOne();
         }
     set.isWhole = set.isWhole && set.members.size() == 1;
-    set.isTransparent = _snapshot->isTransparent && !set.isWhole;
+    set.isTransparent = _draw.getSnapshot().isTransparent && !set.isWhole;
     return set;
 }
 
 SurfaceLook* MixPass::look(const SurfaceState&, const osgUtil::RenderLeaf& leaf)
 {
-    if (!_frame.all)
+    if (!_draw.getFrame().all)
         return nullptr;
-    MixSet set = _snapshot->prunes ? setOf(leaf) : _frame.all->getSet();
+    MixSet set = _draw.getSnapshot().prunes ? setOf(leaf) : _draw.getFrame().all->getSet();
     if (set.members.empty()) // the background: any program draws it
-        set = _frame.all->getSet();
+        set = _draw.getFrame().all->getSet();
     const auto [found, isNew] = _sets.try_emplace(set);
     if (isNew)
-        found->second.program = _resources->programs.find(set);
+        found->second.program = _draw.getResources().programs.find(set);
     ++found->second.leaves;
-    MixProgram* program = found->second.program ? found->second.program.get() : _frame.all.get();
+    MixProgram* program =
+        found->second.program ? found->second.program.get() : _draw.getFrame().all.get();
     auto& values = _values[program];
     if (!values)
-        values = program->valuesOf(*_snapshot);
+        values = program->valuesOf(_draw.getSnapshot());
     return program;
 }
 
 void MixPass::end(osg::RenderInfo& renderInfo)
 {
-    if (!_frame.isSettled || !_frame.all)
+    if (!_draw.getFrame().isSettled || !_draw.getFrame().all)
         return;
     // One a frame, the one that most leaves wait for.
     const MixSet* wanted = nullptr;
     unsigned int most = 0;
     for (const auto& [set, shown] : _sets)
-        if (!shown.program && shown.leaves > most && set.members != _frame.all->getSet().members)
+        if (!shown.program && shown.leaves > most &&
+            set.members != _draw.getFrame().all->getSet().members)
         {
             wanted = &set;
             most = shown.leaves;
         }
     if (wanted)
-        _resources->programs.make(*wanted, _snapshot, *renderInfo.getState(),
-                                  _snapshot->settleFrames == 0);
+        _draw.getResources().programs.make(*wanted, _draw.shareSnapshot(), *renderInfo.getState(),
+                                           _draw.getSnapshot().settleFrames == 0);
 }
 
 void MixPass::drawn(osg::RenderInfo&)
 {
-    if (!_state)
-        return;
-    std::lock_guard<std::mutex> lock(_resources->mutex);
-    _resources->free[_contextID].push_back(_state);
-    _state = nullptr;
+    _draw.end();
 }
 
 const osg::StateSet* MixPass::startRun()
 {
     _variant = nullptr;
     _sent.clear();
-    return _state ? _state->getStateSet() : nullptr;
+    return _draw.getStateSet();
 }
 
 void MixPass::apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
@@ -197,19 +156,17 @@ void MixPass::apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
     gl->glUniform4f(program->getUniformLocation(name), GLfloat(viewport->x()),
                     GLfloat(viewport->y()), GLfloat(2.0 / viewport->width()),
                     GLfloat(2.0 / viewport->height()));
-    // Past osg::State, whose values of these names would be the last frame's.
     const auto values = _values.find(variant.getLook());
     if (values != _values.end() && _sent.insert(&variant).second)
-        for (const osg::ref_ptr<osg::Uniform>& uniform : values->second->uniforms)
-            if (const GLint place = program->getUniformLocation(uniform->getNameID()); place >= 0)
-                uniform->apply(gl, place);
+        values->second->send(*program, state);
 }
 
 std::string MixPass::nameOf(const MixSet& set) const
 {
     std::string name = set.isWhole ? "only" : "mix";
     for (const MixSet::Member& member : set.members)
-        name += (name.size() > 4 ? "+" : " ") + _snapshot->slots[member.slot].rendering->name;
+        name +=
+            (name.size() > 4 ? "+" : " ") + _draw.getSnapshot().slots[member.slot].rendering->name;
     return name;
 }
 
@@ -223,23 +180,7 @@ void MixPass::fillPlan(Plan& plan) const
                  (shown.program ? set.isWhole ? "wholly within its maximum"
                                               : "the weights of these are not 0 there"
                                 : "by the program of all, until nothing moves")});
-    for (const auto& [slot, why] : _frame.leftOut)
-        plan.entries.push_back({"rendering " + std::to_string(slot) + " '" +
-                                    _snapshot->slots[slot].rendering->name + "'",
-                                Decision::Dropped, why});
-    if (_frame.all)
-        for (const MergeMessage& message : _frame.all->getMerged().messages)
-            if (message.severity != MergeSeverity::Error)
-                plan.entries.push_back({"merged program", Decision::Drawn, message.text});
-    const MixPrograms::Counts counts = _resources->programs.getCounts();
-    plan.counts["mix.programs"] = counts.kept;
-    plan.counts["mix.programs.merged"] = counts.merged;
-    plan.counts["mix.programs.linked"] = counts.linked;
-    plan.counts["mix.programs.tried"] = counts.tried;
-    plan.counts["mix.programs.evicted"] = counts.evicted;
-    plan.counts["mix.mergeMilliseconds"] = counts.mergeMilliseconds;
-    plan.counts["mix.linkMilliseconds"] = counts.linkMilliseconds;
-    plan.counts["mix.keyPoints"] = static_cast<double>(_snapshot->points->getNumPoints());
+    _draw.fillPlan(plan);
 }
 
 } // namespace osgMultiRender

@@ -2,24 +2,13 @@
 // A MixedScene's part in the draw of one view of one frame. Not installed.
 #pragma once
 
-#include <osgMultiRender/MixPrograms.h>
-#include <osgMultiRender/MixState.h>
+#include <osgMultiRender/MixDraw.h>
 #include <osgMultiRender/SurfaceGroup.h>
-
-#include <osg/observer_ptr>
 
 #include <set>
 
 namespace osgMultiRender
 {
-
-/// What the views of a scene share.
-struct MixResources
-{
-    MixPrograms programs;
-    std::mutex mutex;
-    std::map<unsigned int, std::vector<osg::ref_ptr<MixState>>> free; ///< By context.
-};
 
 class MixPass : public SurfacePass
 {
@@ -53,17 +42,11 @@ private:
     };
 
     MixSet setOf(const osgUtil::RenderLeaf& leaf) const;
-    MixWeights weightsOf(const MixSnapshot& snapshot) const;
     std::string nameOf(const MixSet& set) const;
 
-    std::shared_ptr<MixResources> _resources;
-    std::shared_ptr<const MixSnapshot> _snapshot;
+    MixDraw _draw;
     osg::Matrixd _keysToEye, _eyeToKeys;
     bool _isCulled = false;
-    unsigned int _contextID = 0;
-    MixPrograms::Frame _frame;
-    MixWeights _weights;
-    osg::ref_ptr<MixState> _state;
     std::map<MixSet, Shown> _sets;
     /// Of the renderings' uniforms. Looks, not their texts: two may differ in values alone.
     std::map<const SurfaceLook*, std::shared_ptr<const MixProgram::Values>> _values;

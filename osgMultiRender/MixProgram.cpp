@@ -54,8 +54,28 @@ void setValues(osg::Uniform& uniform, const std::vector<double>& values)
         uniform.dirty();
 }
 
+const char* const surfacePosition =
+    "void osgmr_mixBegin()\n{\n"
+    "    vec3 place = vec3((gl_FragCoord.xy - osgmr_mixViewport.xy) * osgmr_mixViewport.zw,\n"
+    "                      2.0 * (gl_FragCoord.z - gl_DepthRange.near) / gl_DepthRange.diff);\n"
+    "    vec4 clip = vec4(place - 1.0, 1.0) / gl_FragCoord.w;\n"
+    "    osgmr_mixAt((gl_ProjectionMatrixInverse * clip).xyz);\n"
+    "}\n";
+
+/// Where nothing was drawn, or beyond what a float's square holds, there is no distance.
+const char* const framePosition =
+    "uniform sampler2D osgmr_mixDepth;\n"
+    "void osgmr_mixBegin()\n{\n"
+    "    vec2 at = gl_FragCoord.xy - osgmr_mixViewport.xy;\n"
+    "    float depth = texelFetch(osgmr_mixDepth, ivec2(at), 0).r;\n"
+    "    vec3 place = vec3(at * osgmr_mixViewport.zw,\n"
+    "                      2.0 * (depth - gl_DepthRange.near) / gl_DepthRange.diff);\n"
+    "    vec4 eye = gl_ProjectionMatrixInverse * vec4(place - 1.0, 1.0);\n"
+    "    osgmr_mixAt(depth < 1.0 ? eye.xyz / eye.w : vec3(1e30));\n"
+    "}\n";
+
 /// GLSL behind mix.glsl: an entry's slot, the position of the fragment, what is left to show.
-std::string weightsOf(const MixSet& set)
+std::string weightsOf(const MixSet& set, bool isOfFrame)
 {
     if (set.isWhole)
         return "float osgmr_weight(int rendering)\n{\n    return 1.0;\n}\n";
@@ -67,16 +87,8 @@ std::string weightsOf(const MixSet& set)
            "#undef osgmr_weight\n"
            "uniform vec4 osgmr_mixViewport; // place; 2 / size\n"
            "const int osgmr_slots" +
-           count + " = int" + count + "(" + slots +
-           ");\n"
-           "void osgmr_mixBegin()\n{\n"
-           "    vec3 place = vec3((gl_FragCoord.xy - osgmr_mixViewport.xy) * "
-           "osgmr_mixViewport.zw,\n"
-           "                      2.0 * (gl_FragCoord.z - gl_DepthRange.near) / "
-           "gl_DepthRange.diff);\n"
-           "    vec4 clip = vec4(place - 1.0, 1.0) / gl_FragCoord.w;\n"
-           "    osgmr_mixAt((gl_ProjectionMatrixInverse * clip).xyz);\n"
-           "}\n"
+           count + " = int" + count + "(" + slots + ");\n" +
+           (isOfFrame ? framePosition : surfacePosition) +
            "float osgmr_weight(int rendering)\n{\n"
            "    return osgmr_slotWeight(osgmr_slots[rendering]);\n"
            "}\n"
@@ -112,11 +124,12 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
             {isThere ? slot->rendering.get() : nullptr, 1.0 / (1.0 + double(entries.size()))});
     }
     options.limits = limits;
-    options.weights = weightsOf(set);
+    options.weights = weightsOf(set, snapshot.isOfFrame);
     if (!set.isWhole)
     {
         options.begin = "osgmr_mixBegin();";
-        options.beginAt = "osgmr_mixAt";
+        if (!snapshot.isOfFrame) // there the vertices are those of a triangle over the picture
+            options.beginAt = "osgmr_mixAt";
         options.end = "osgmr_mixEnd";
         options.outside = MergeOutside::Transparent;
     }
@@ -176,6 +189,14 @@ void MixProgram::addTextures(const MixSnapshot& snapshot)
                                        own ? osg::StateAttribute::OVERRIDE
                                            : osg::StateAttribute::ON);
     }
+}
+
+void MixProgram::Values::send(const osg::Program::PerContextProgram& program,
+                              osg::State& state) const
+{
+    for (const osg::ref_ptr<osg::Uniform>& uniform : uniforms)
+        if (const GLint place = program.getUniformLocation(uniform->getNameID()); place >= 0)
+            uniform->apply(state.get<osg::GLExtensions>(), place);
 }
 
 std::shared_ptr<const MixProgram::Values> MixProgram::valuesOf(const MixSnapshot& snapshot)

@@ -68,6 +68,10 @@ public:
     {
         std::uint64_t revision = 0;
         std::vector<osg::ref_ptr<osg::Uniform>> uniforms;
+
+        /// To the program in use, past osg::State, whose values of these names would be the last
+        /// frame's.
+        void send(const osg::Program::PerContextProgram& program, osg::State& state) const;
     };
     /// Those of a snapshot, for apply(). They are not in the StateSet: contexts may draw different
     /// frames at the same time.

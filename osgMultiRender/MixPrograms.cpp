@@ -55,6 +55,33 @@ double millisecondsSince(osg::Timer_t start)
 
 } // namespace
 
+std::shared_ptr<const MixSnapshot>
+MixPrograms::withoutBroken(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_limits)
+        _limits = limitsOf(state);
+    tryNew(*snapshot, state);
+    std::shared_ptr<MixSnapshot> changed;
+    for (std::size_t i = 0; i < snapshot->slots.size(); ++i)
+    {
+        const MixSlot& slot = snapshot->slots[i];
+        if (!slot.before || !_failed.count(slot.id) || _failed.count(slot.before->id))
+            continue;
+        if (!changed)
+            changed = std::make_shared<MixSnapshot>(*snapshot);
+        changed->slots[i].rendering = slot.before->rendering;
+        changed->slots[i].id = slot.before->id;
+    }
+    return changed ? changed : snapshot;
+}
+
+bool MixPrograms::hasFailed(std::uint64_t id) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _failed.count(id) != 0;
+}
+
 MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& snapshot,
                                       osg::State& state)
 {

@@ -40,6 +40,11 @@ public:
         double mergeMilliseconds = 0.0, linkMilliseconds = 0.0; ///< All together.
     };
 
+    /// To be called before begin(): where a rendering can't be used that has replaced another one,
+    /// that one stays.
+    std::shared_ptr<const MixSnapshot>
+    withoutBroken(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
+    bool hasFailed(std::uint64_t id) const;
     /// At the head of a frame. Waits for a merge only where there is nothing to show yet.
     Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
     /// The linked program of exactly this set, or null.

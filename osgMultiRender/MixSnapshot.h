@@ -25,6 +25,7 @@ struct MixSlot
     std::uint64_t id = 0;                       ///< Of this rendering, never given again.
     MixRange range;
     MixUniforms uniforms;
+    std::shared_ptr<const MixSlot> before; ///< What it has replaced; shown while this one fails.
 };
 
 /// All settings of one frame; never changed once a frame has it.
@@ -33,6 +34,7 @@ struct MixSnapshot
     std::vector<MixSlot> slots;
     std::shared_ptr<const KeyPoints> points = std::make_shared<KeyPoints>();
     MixRules rules;
+    bool isOfFrame = false;     ///< Renderings read the frame, in a second pass.
     bool isTransparent = false; ///< What is missing shows what lies behind.
     bool prunes = true;
     unsigned int settleFrames = 10;

@@ -45,7 +45,9 @@ MixState::MixState(unsigned int unit)
     _texels->getBufferObject()->setTarget(GL_TEXTURE_BUFFER_ARB);
     texture->setInternalFormat(GL_RGBA32UI_EXT);
     _stateSet->setDataVariance(osg::Object::DYNAMIC);
-    _stateSet->setTextureAttribute(unit, texture, osg::StateAttribute::OVERRIDE);
+    // PROTECTED: the one of a kit around this one may be above.
+    _stateSet->setTextureAttribute(unit, texture,
+                                   osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
     _stateSet->addUniform(new osg::Uniform("osgmr_mix", static_cast<int>(unit)));
     for (osg::Uniform* uniform : {_frame.get(), _keys.get(), _rules.get(), _background.get()})
         _stateSet->addUniform(uniform);

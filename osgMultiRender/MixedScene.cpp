@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixedScene.h>
 
-#include <osgMultiRender/MixFile.h>
-#include <osgMultiRender/MixKeys.h>
-#include <osgMultiRender/MixMarkers.h>
+#include <osgMultiRender/MixDrag.h>
 #include <osgMultiRender/MixPass.h>
+#include <osgMultiRender/MixWatch.h>
 
-#include <osg/MatrixTransform>
 #include <osg/Notify>
-#include <osgGA/EventVisitor>
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +33,8 @@ std::vector<glm::dvec3> toGlm(const std::vector<osg::Vec3d>& points)
 } // namespace
 
 MixedScene::MixedScene()
-    : _snapshot(std::make_shared<MixSnapshot>()), _resources(std::make_shared<MixResources>())
+    : _snapshot(std::make_shared<MixSnapshot>()), _resources(std::make_shared<MixResources>()),
+      _drag(std::make_unique<MixDrag>())
 {
     // So that parents lead event visitors here; not for children, which have their own.
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
@@ -45,12 +43,16 @@ MixedScene::MixedScene()
 MixedScene::MixedScene(const MixedScene& other, const osg::CopyOp& copyop)
     : SurfaceGroup(other, copyop), _snapshot(other.getSnapshot()), _points(other.getKeyPoints()),
       _keyNode(const_cast<osg::Node*>(other.getKeyNode())), _marks(other.getMarks()),
-      _answersKeys(other.getAnswersKeys()), _resources(std::make_shared<MixResources>())
+      _answersKeys(other.getAnswersKeys()), _resources(std::make_shared<MixResources>()),
+      _drag(std::make_unique<MixDrag>())
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
 
-MixedScene::~MixedScene() = default;
+MixedScene::~MixedScene()
+{
+    _watch.reset(); // before what its thread uses
+}
 
 std::shared_ptr<const MixSnapshot> MixedScene::getSnapshot() const
 {
@@ -94,7 +96,8 @@ unsigned int MixedScene::addRendering(const Rendering& rendering, const MixRange
             number = static_cast<unsigned int>(place);
             if (place == snapshot.slots.size())
                 snapshot.slots.emplace_back();
-            snapshot.slots[place] = {std::make_shared<Rendering>(rendering), nextId(), range, {}};
+            snapshot.slots[place] = {
+                std::make_shared<Rendering>(rendering), nextId(), range, {}, nullptr};
             ++snapshot.uniformRevision;
         });
     if (number == None)
@@ -108,6 +111,12 @@ bool MixedScene::setRendering(unsigned int number, const Rendering& rendering)
     return changeSlot(number,
                       [&](MixSnapshot& snapshot, MixSlot& slot)
                       {
+                          auto before = std::make_shared<MixSlot>(slot);
+                          if (_resources->programs.hasFailed(slot.id))
+                              slot.before = before->before;
+                          else
+                              slot.before = before;
+                          before->before = nullptr;
                           slot.rendering = std::make_shared<Rendering>(rendering);
                           slot.id = nextId();
                           ++snapshot.uniformRevision;
@@ -223,6 +232,29 @@ bool MixedScene::isTransparent() const
     return getSnapshot()->isTransparent;
 }
 
+void MixedScene::setInput(MixInput input)
+{
+    change(
+        [&](MixSnapshot& snapshot)
+        {
+            // The programs of one are none for the other.
+            if (snapshot.isOfFrame != (input == MixInput::Frame))
+                _resources = std::make_shared<MixResources>();
+            snapshot.isOfFrame = input == MixInput::Frame;
+        });
+}
+
+MixInput MixedScene::getInput() const
+{
+    return getSnapshot()->isOfFrame ? MixInput::Frame : MixInput::Surface;
+}
+
+std::shared_ptr<MixResources> MixedScene::getResources() const
+{
+    std::lock_guard<std::mutex> lock(_settings);
+    return _resources;
+}
+
 bool MixedScene::setUniform(unsigned int number, const std::string& name,
                             const std::vector<double>& values)
 {
@@ -299,112 +331,6 @@ bool MixedScene::getAnswersKeys() const
 {
     std::lock_guard<std::mutex> lock(_settings);
     return _answersKeys;
-}
-
-void MixedScene::setMixText(const std::string& text)
-{
-    std::string error;
-    const osg::ref_ptr<MixedScene> other = new MixedScene;
-    if (!applyMix(*other, text, {}, error))
-    {
-        OSG_WARN << "osgMultiRender::MixedScene: " << error << std::endl;
-        return;
-    }
-    change(
-        [&](MixSnapshot& snapshot)
-        {
-            const std::uint64_t mix = snapshot.mixRevision, uniforms = snapshot.uniformRevision;
-            snapshot = *other->_snapshot;
-            snapshot.mixRevision = mix + 1;
-            snapshot.uniformRevision = uniforms + 1;
-            _points = other->_points;
-            _marks = other->_marks;
-            _answersKeys = other->_answersKeys;
-            _drawnMarks = nullptr;
-        });
-}
-
-std::string MixedScene::getMixText() const
-{
-    return formatMix(*this);
-}
-
-/// Some thousandths of the scene; made anew when points or the scene's size change.
-osg::ref_ptr<osg::Node> MixedScene::makeMarks()
-{
-    const osg::BoundingSphere bound = getBound();
-    std::lock_guard<std::mutex> lock(_settings);
-    if (_marks == MixMarks::Off || _points.empty())
-        return nullptr;
-    const float size = bound.valid() ? std::max(0.012f * bound.radius(), 1e-6f) : 1.0f;
-    if (!_drawnMarks || std::abs(size - _markSize) > 0.1f * size)
-        _drawnMarks =
-            makeMixMarkers(_points, _snapshot->points->getMode(), _marks == MixMarks::Lines, size);
-    _markSize = size;
-    return _drawnMarks;
-}
-
-void MixedScene::traverse(osg::NodeVisitor& visitor)
-{
-    if (auto* events = dynamic_cast<osgGA::EventVisitor*>(&visitor); events && getAnswersKeys())
-        answerKeys(*this, *events);
-    SurfaceGroup::traverse(visitor);
-    if (visitor.getVisitorType() != osg::NodeVisitor::CULL_VISITOR)
-        return;
-    if (const osg::ref_ptr<osg::Node> marks = makeMarks())
-    {
-        osg::ref_ptr<osg::MatrixTransform> place = new osg::MatrixTransform(keysToScene());
-        place->addChild(marks);
-        place->accept(visitor);
-    }
-}
-
-std::string MixedScene::getSource() const
-{
-    return _resources->programs.getSource();
-}
-
-/// From the node that the key points are attached to.
-osg::Matrixd MixedScene::keysToScene() const
-{
-    osg::ref_ptr<osg::Node> node;
-    {
-        std::lock_guard<std::mutex> lock(_settings);
-        if (!_keyNode.lock(node))
-            return {};
-    }
-    const auto pathOf = [](const osg::Node& of)
-    {
-        const osg::NodePathList paths = of.getParentalNodePaths();
-        return paths.empty() ? osg::NodePath() : paths.front();
-    };
-    // Through the world: the node need not be of this subgraph.
-    return osg::computeLocalToWorld(pathOf(*node)) * osg::computeWorldToLocal(pathOf(*this));
-}
-
-std::unique_ptr<SurfacePass> MixedScene::createPass() const
-{
-    return std::make_unique<MixPass>(_resources, getSnapshot(), keysToScene());
-}
-
-void MixedScene::resizeGLObjectBuffers(unsigned int maxSize)
-{
-    SurfaceGroup::resizeGLObjectBuffers(maxSize);
-    _resources->programs.resizeGLObjectBuffers(maxSize);
-    std::lock_guard<std::mutex> lock(_resources->mutex);
-    for (auto& [context, states] : _resources->free)
-        for (auto& state : states)
-            state->getStateSet()->resizeGLObjectBuffers(maxSize);
-}
-
-void MixedScene::releaseGLObjects(osg::State* state) const
-{
-    SurfaceGroup::releaseGLObjects(state);
-    _resources->programs.releaseGLObjects(state);
-    std::lock_guard<std::mutex> lock(_resources->mutex);
-    for (const auto& [context, states] : _resources->free)
-        for (const auto& each : states)
-            each->getStateSet()->releaseGLObjects(state);
 }
 
 } // namespace osgMultiRender

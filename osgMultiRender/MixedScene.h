@@ -15,6 +15,8 @@
 namespace osgMultiRender
 {
 
+class MixDrag;
+class MixWatch;
 struct MixResources;
 struct MixSnapshot;
 
@@ -24,6 +26,13 @@ enum class MixMarks
     Off,
     Points, ///< Red spheres.
     Lines   ///< These, and what joins them.
+};
+
+/// What the renderings are shown on.
+enum class MixInput
+{
+    Surface, ///< The surfaces of the subgraph, instead of their own look.
+    Frame    ///< The frame, when all of it is drawn: for renderings of images.
 };
 
 /// Shows its subgraph as a mix of renderings, weighted by the distance to key points.
@@ -53,7 +62,8 @@ public:
     /// free. None, with a warning, if there are MaxRenderings.
     unsigned int addRendering(const Rendering& rendering, const MixRange& range = MixRange());
     /// Puts another one in its place, which keeps range and values of uniforms: the one before
-    /// stays on screen until the new one is linked. False for a number that none has; so below.
+    /// stays on screen until the new one is linked, and where that can't be used. False for a
+    /// number that none has; so below.
     bool setRendering(unsigned int number, const Rendering& rendering);
     bool removeRendering(unsigned int number);
     /// Those that are there, in order.
@@ -81,6 +91,15 @@ public:
     void setTransparent(bool transparent);
     bool isTransparent() const;
 
+    /// With Frame surfaces keep their own look, or that of MixedScenes below. When the view has
+    /// been drawn, a second pass replaces each pixel of the viewport by the mix of what renderings
+    /// make of the picture, which they read as the model's texture on unit 0; distances are those
+    /// of the surface in the pixel, from the depth buffer. Where nothing was drawn there is no
+    /// distance: what has an infinite dr3 counts there. Several samples become one. Not for targets
+    /// without depth or of several colour buffers: they keep their picture, with a warning.
+    void setInput(MixInput input);
+    MixInput getInput() const;
+
     /// Sets a uniform of a rendering, by the name that its author gave it: all components of all
     /// elements, 0 and 1 for bool. Those of samplers, blocks and OSG (`osg_`) are not taken.
     bool setUniform(unsigned int number, const std::string& name,
@@ -101,7 +120,8 @@ public:
 
     void setMarks(MixMarks marks);
     MixMarks getMarks() const;
-    /// Whether the scene answers to mixKeys().
+    /// Whether the scene answers to mixKeys(), and to the mouse: with Ctrl and the left button a
+    /// marker is dragged, with Shift a click takes it away or makes a new one on a surface.
     void setAnswersKeys(bool answers);
     bool getAnswersKeys() const;
 
@@ -110,8 +130,27 @@ public:
     void setMixText(const std::string& text);
     std::string getMixText() const;
 
+    /// Whether files are looked after once a second, in a thread of its own: those of renderings,
+    /// and the mix file. What has changed is imported anew, as setRendering() does it; a mix file's
+    /// renderings, points and settings take the place of all that are there. A file with errors
+    /// leaves what is shown, with one warning that names it.
+    void setWatching(bool watches);
+    bool isWatching() const;
+    /// The mix file that is looked after; "" for none. readMixFile() sets it.
+    void setMixFile(const std::string& fileName);
+    std::string getMixFile() const;
+    /// Reads all these files again, changed or not.
+    void readFilesAgain();
+
+    /// All settings, without the subgraph.
+    osg::ref_ptr<MixedScene> cloneSettings() const;
+    /// Takes all settings of another one at once; whether files are looked after stays.
+    void takeSettings(const MixedScene& other);
+
     /// The text of the program that shows all renderings, both stages; empty before it was drawn.
     std::string getSource() const;
+
+    std::vector<Plan> getPlans() const override;
 
     void traverse(osg::NodeVisitor& visitor) override;
     void resizeGLObjectBuffers(unsigned int maxSize) override;
@@ -128,6 +167,10 @@ private:
     std::shared_ptr<const MixSnapshot> getSnapshot() const;
     osg::Matrixd keysToScene() const;
     osg::ref_ptr<osg::Node> makeMarks();
+    void reimport(const std::vector<std::string>& files, bool all);
+    std::vector<std::string> getWatchedFiles() const;
+    void cullFrame(osg::NodeVisitor& visitor);
+    std::shared_ptr<MixResources> getResources() const;
 
     mutable std::mutex _settings;
     std::shared_ptr<const MixSnapshot> _snapshot;
@@ -137,7 +180,12 @@ private:
     bool _answersKeys = true;
     osg::ref_ptr<osg::Node> _drawnMarks; ///< Of these key points; null: to be made.
     float _markSize = 0.0f;
-    std::shared_ptr<MixResources> _resources;
+    std::shared_ptr<MixResources> _resources; ///< Another one when the input changes.
+    std::unique_ptr<MixDrag> _drag;           ///< Of the thread of events.
+    std::string _mixFile;
+    mutable std::mutex _watching;
+    std::unique_ptr<MixWatch> _watch;        ///< Null: files are not looked after.
+    osg::ref_ptr<osg::StateSet> _frameState; ///< Null before the first pass over a frame.
 };
 
 } // namespace osgMultiRender

@@ -24,8 +24,13 @@ std::pair<GLenum, GLenum> transferOf(GLint internalFormat)
     {
     case GL_DEPTH_COMPONENT16:
     case GL_DEPTH_COMPONENT24:
+    case GL_DEPTH_COMPONENT32:
     case GL_DEPTH_COMPONENT32F:
         return {GL_DEPTH_COMPONENT, GL_FLOAT};
+    case GL_DEPTH24_STENCIL8_EXT:
+        return {GL_DEPTH_STENCIL_EXT, GL_UNSIGNED_INT_24_8_EXT};
+    case GL_DEPTH32F_STENCIL8:
+        return {GL_DEPTH_STENCIL_EXT, GL_FLOAT_32_UNSIGNED_INT_24_8_REV};
     case GL_R32UI:
         return {GL_RED_INTEGER_EXT, GL_UNSIGNED_INT};
     case GL_RG32UI:
@@ -53,6 +58,7 @@ int bytesOf(GLint internalFormat)
     case GL_RG32UI:
     case GL_RGBA16:
     case GL_RGBA16F_ARB:
+    case GL_DEPTH32F_STENCIL8:
         return 8;
     case GL_RGBA32F_ARB:
     case GL_RGBA32UI_EXT:

@@ -175,3 +175,30 @@ TEST(MixFileTest, eachOptionIsDocumented)
         settings.push_back({option.name, option.values, option.format(*defaults)});
     EXPECT_EQ(support::undocumented(OSGKITS_SETTINGS_PAGE, "## Renderings", settings), Lines());
 }
+
+TEST(MixFileTest, aBaseByNumberIsThePlaceInItsOwnMix)
+{
+    const osg::ref_ptr<MixedScene> scene = new MixedScene;
+    for (const char* const name : {"phong", "toon", "wood"})
+        scene->addRendering(importNamed(name));
+    std::string error;
+    ASSERT_TRUE(applyMix(*scene, R"({"renderings": [{"name": "gooch"}, {"name": "xray"}],
+                                     "base": "1"})",
+                         {}, error))
+        << error;
+    EXPECT_EQ(scene->getRules().base, 4);
+}
+
+TEST(MixFileTest, textsThatAreNotUtf8AndInfiniteUniformsAreWritten)
+{
+    Rendering rendering = importNamed("phong");
+    rendering.name = "gl\xe4nzend";
+    const osg::ref_ptr<MixedScene> scene = new MixedScene, other = new MixedScene;
+    scene->addRendering(rendering);
+    scene->setUniform(0, "gloss", {std::numeric_limits<double>::infinity()});
+    std::string text, error;
+    ASSERT_NO_THROW(text = scene->getMixText());
+    EXPECT_TRUE(applyMix(*other, text, {}, error)) << error;
+    EXPECT_EQ(other->getUniform(0, "gloss"),
+              std::vector<double>{std::numeric_limits<double>::infinity()});
+}

@@ -51,6 +51,11 @@ void MixTruth::add(osg::StateSet* rendering)
     _pictures.push_back(draw(rendering));
 }
 
+bool MixTruth::hasSurface(int x, int y) const
+{
+    return reinterpret_cast<const float*>(_places->data(x, y))[3] == 1234.0f;
+}
+
 MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoints& points,
                                        const MixWeights& weights) const
 {
@@ -60,7 +65,7 @@ MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoint
         for (int x = 0; x < _size; ++x)
         {
             const auto* place = reinterpret_cast<const float*>(_places->data(x, y));
-            if (place[3] != 1234.0f)
+            if (!hasSurface(x, y))
                 continue;
             ++result.covered;
             const double distance = points.distance({place[0], place[1], place[2]});

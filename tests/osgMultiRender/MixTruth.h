@@ -22,6 +22,9 @@ public:
 
     /// Adds the picture of `model` under a StateSet that has the rendering's program.
     void add(osg::StateSet* rendering);
+    /// Another one, RGBA32F.
+    void addPicture(osg::ref_ptr<osg::Image> picture) { _pictures.push_back(std::move(picture)); }
+    bool hasSurface(int x, int y) const;
 
     /// How far a picture of the mix is from the truth, pixel by pixel.
     struct Difference

@@ -217,8 +217,8 @@ TEST_F(MixedChangeGLTest, drawThreadsSeeOneMixAFrame)
     {
         _scene->setKeyPoints({{0.1 * i, 0.0, 0.0}, {0.0, 0.1 * i, 0.0}}, KeyMode(i % 3));
         if (i % 10 == 5)
-            _scene->setRendering(number, plain("red", "vec4(1.0, 0.0, 0.0, " +
-                                                          std::to_string(i) + ".0)"));
+            _scene->setRendering(number,
+                                 plain("red", "vec4(1.0, 0.0, 0.0, " + std::to_string(i) + ".0)"));
         const osg::ref_ptr<osg::Image> picture =
             threaded.renderFloat(_scene, _camera, Size, Size, 2);
         ASSERT_TRUE(picture);

@@ -23,19 +23,6 @@ protected:
         setKeys({{-1.6, -3.0, 0.5}, {1.5, -3.0, 1.0}});
     }
 
-    /// As if pressed at a place of the window, -1 to 1.
-    void press(char key, float x = 0.0f, float y = 0.0f)
-    {
-        osgGA::EventQueue& queue = *_viewer.getViewer().getEventQueue();
-        queue.setMouseInputRange(-1.0f, -1.0f, 1.0f, 1.0f);
-        queue.getCurrentEventState()->setMouseYOrientation(
-            osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS);
-        queue.mouseMotion(x, y);
-        queue.keyPress(key);
-        queue.keyRelease(key);
-        draw();
-    }
-
     int redPixels()
     {
         const osg::ref_ptr<osg::Image> picture = draw();
@@ -96,4 +83,74 @@ TEST_F(MixedKeysGLTest, keysChangeRangesAndPoints)
     _scene->setAnswersKeys(false);
     press('K');
     EXPECT_EQ(_scene->getMarks(), MixMarks::Off);
+}
+
+TEST_F(MixedKeysGLTest, pointsComeMoveAndGoOnTheSurfaceUnderTheMouse)
+{
+    draw();
+    press('Y', 0.0f, -0.3f);
+    std::vector<osg::Vec3d> points = _scene->getKeyPoints();
+    ASSERT_EQ(points.size(), 3u);
+    expectUnder(points[2], 0.0f, -0.3f);
+    press('Y', 0.99f, 0.99f);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 3u) << "nothing is there";
+    press('Q', 0.1f, -0.4f);
+    points = _scene->getKeyPoints();
+    ASSERT_EQ(points.size(), 3u);
+    expectUnder(points[2], 0.1f, -0.4f);
+    press('X', 0.1f, -0.4f);
+    EXPECT_EQ(_scene->getKeyPoints(), std::vector<osg::Vec3d>(points.begin(), points.end() - 1));
+}
+
+TEST_F(MixedKeysGLTest, aKeyOverAnotherSceneIsThatOnes)
+{
+    draw();
+    const osg::ref_ptr<MixedScene> empty = new MixedScene;
+    empty->addRendering(importNamed("gooch"));
+    const osg::ref_ptr<osg::Group> both = new osg::Group;
+    both->addChild(empty);
+    both->addChild(_scene);
+    _viewer.renderFloat(both, _camera, Size, Size);
+    aim(0.0f, -0.3f).keyPress('Y');
+    _viewer.renderFloat(both, _camera, Size, Size);
+    EXPECT_EQ(empty->getKeyPoints().size(), 0u);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 3u);
+}
+
+TEST_F(MixedKeysGLTest, aMarkerFollowsTheMouseParallelToTheScreen)
+{
+    _scene->setMarks(MixMarks::Points);
+    draw();
+    const osg::Vec3d before = _scene->getKeyPoints()[1];
+    const osg::Vec3d from = screenOf(before);
+    const osg::Matrixd view = _viewer.getViewer().getCamera()->getViewMatrix();
+    button(from.x(), from.y(), osgGA::GUIEventAdapter::MODKEY_LEFT_CTRL);
+    aim(0.2f, 0.5f);
+    draw();
+    const osg::Vec3d after = _scene->getKeyPoints()[1];
+    release(0.2f, 0.5f);
+    expectUnder(after, 0.2f, 0.5f);
+    // Single precision of the events' coordinates.
+    EXPECT_NEAR((after * _camera.view).z(), (before * _camera.view).z(), 1e-4);
+    EXPECT_EQ(_scene->getKeyPoints()[0], osg::Vec3d(-1.6, -3.0, 0.5));
+    EXPECT_EQ(_viewer.getViewer().getCamera()->getViewMatrix(), view);
+    aim(-0.5f, -0.5f);
+    draw();
+    EXPECT_EQ(_scene->getKeyPoints()[1], after) << "it was let go";
+}
+
+TEST_F(MixedKeysGLTest, clicksWithShiftMakePointsAndTakeMarkersAway)
+{
+    draw();
+    button(0.0f, -0.3f, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+    release(0.0f, -0.3f);
+    ASSERT_EQ(_scene->getKeyPoints().size(), 3u);
+    expectUnder(_scene->getKeyPoints()[2], 0.0f, -0.3f);
+    _scene->setMarks(MixMarks::Points);
+    button(0.0f, -0.3f, osgGA::GUIEventAdapter::MODKEY_LEFT_SHIFT);
+    release(0.0f, -0.3f);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 2u);
+    button(0.0f, -0.3f, 0);
+    release(0.0f, -0.3f);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 2u) << "without a modifier it is the viewer's";
 }

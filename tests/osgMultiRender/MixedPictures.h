@@ -75,6 +75,53 @@ protected:
         EXPECT_EQ(difference.over, 0);
     }
 
+    /// The mouse goes to a place of the window, -1 to 1.
+    osgGA::EventQueue& aim(double x, double y)
+    {
+        osgGA::EventQueue& queue = *_viewer.getViewer().getEventQueue();
+        queue.setMouseInputRange(-1.0f, -1.0f, 1.0f, 1.0f);
+        queue.getCurrentEventState()->setMouseYOrientation(
+            osgGA::GUIEventAdapter::Y_INCREASING_UPWARDS);
+        queue.mouseMotion(float(x), float(y));
+        return queue;
+    }
+
+    /// As if pressed at a place of the window, -1 to 1.
+    void press(char key, float x = 0.0f, float y = 0.0f)
+    {
+        osgGA::EventQueue& queue = aim(x, y);
+        queue.keyPress(key);
+        queue.keyRelease(key);
+        draw();
+    }
+
+    /// The left button, held with modifiers.
+    void button(double x, double y, int modifiers)
+    {
+        aim(x, y).getCurrentEventState()->setModKeyMask(modifiers);
+        _viewer.getViewer().getEventQueue()->mouseButtonPress(float(x), float(y), 1);
+        draw();
+    }
+
+    void release(double x, double y)
+    {
+        _viewer.getViewer().getEventQueue()->mouseButtonRelease(float(x), float(y), 1);
+        draw();
+        _viewer.getViewer().getEventQueue()->getCurrentEventState()->setModKeyMask(0);
+    }
+
+    osg::Vec3d screenOf(const osg::Vec3d& point) const
+    {
+        return point * _camera.view * _camera.projection;
+    }
+
+    /// To a hundredth of a pixel: events have single precision.
+    void expectUnder(const osg::Vec3d& point, double x, double y) const
+    {
+        EXPECT_NEAR(screenOf(point).x(), x, 0.02 / Size);
+        EXPECT_NEAR(screenOf(point).y(), y, 0.02 / Size);
+    }
+
     double count(const std::string& what) const
     {
         const std::vector<osgMultiRender::Plan> plans = _scene->getPlans();

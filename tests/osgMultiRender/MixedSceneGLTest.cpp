@@ -93,3 +93,32 @@ TEST_F(MixedSceneGLTest, keyPointsMoveWithTheNodeThatTheyAreAttachedTo)
     _scene->setKeyNode(node);
     expectTruth("mixedAttached");
 }
+
+TEST_F(MixedSceneGLTest, whatIsMissingShowsWhatLiesBehindWhereItIsTransparent)
+{
+    _model = makeImageQuad(*_image); // one layer, so that only the background is behind
+    add("textured", {0.0, 0.0, 0.2, 0.8});
+    setKeys({{0.0, 0.0, 0.0}});
+    const osg::ref_ptr<osg::Image> opaque = osg::clone(draw().get(), osg::CopyOp::DEEP_COPY_ALL);
+    _scene->setTransparent(true);
+    const osg::ref_ptr<osg::Image> picture = draw();
+    support::writeImage(*picture, "mixedTransparent");
+    const osg::Vec4 behind = support::HeadlessSettings().clearColor;
+    int through = 0, mixed = 0;
+    double worst = 0.0;
+    for (unsigned int y = 0; y < unsigned(Size); ++y)
+        for (unsigned int x = 0; x < unsigned(Size); ++x)
+        {
+            const osg::Vec4 over = opaque->getColor(x, y), seen = picture->getColor(x, y);
+            const bool isQuad = over != behind;
+            through += isQuad && over.a() == 0.0f;
+            mixed += isQuad && over.a() > 0.0f && over.a() < 1.0f;
+            for (int i = 0; i < 3; ++i)
+                worst = std::max(worst,
+                                 double(std::abs(seen[i] - over[i] -
+                                                 (isQuad ? 1.0f - over.a() : 0.0f) * behind[i])));
+        }
+    EXPECT_GT(through, 100);
+    EXPECT_GT(mixed, 100);
+    EXPECT_LE(worst, 1.0 / 255.0);
+}

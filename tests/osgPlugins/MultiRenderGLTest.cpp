@@ -93,12 +93,24 @@ TEST_F(MultiRenderPlugin, aSavedSceneLooksTheSame)
         _model + ".(renderings='phong:0,0,2,4;gooch:2,4',points='-2,0,0').multirender";
     const Picture fresh = view(name);
     ASSERT_TRUE(fresh);
-    for (const char* const format : {"osgt", "osgb", "osgx"})
+    for (const char* const format : {"osgt", "osgb", "osgx", "osg"})
     {
         const Picture saved = view(convert(name, _folder.file(std::string("saved.") + format)));
         ASSERT_TRUE(saved) << format;
         EXPECT_TRUE(support::CompareImage()(saved, fresh, std::string("multirender.") + format));
     }
+}
+
+TEST_F(MultiRenderPlugin, theFrameIsMixedInASecondPass)
+{
+    const std::string mix = "points='-2,0,0',renderings='sobel:0,0,1,2;sepia:1,2'";
+    const Picture surfaces = view(_model + ".(" + mix + ").multirender");
+    const Picture frame = view(_model + ".(" + mix + ",input=frame).multirender");
+    const Picture labelled = view(_model + ".labels.(" + mix + ",input=frame).multirender");
+    ASSERT_TRUE(surfaces && frame && labelled);
+    EXPECT_TRUE(differ(*surfaces, *frame));
+    EXPECT_TRUE(differ(*labelled, *frame));
+    support::writeImage(*labelled, "multirenderFrameLabels");
 }
 
 TEST_F(MultiRenderPlugin, labelsLieOnTop)

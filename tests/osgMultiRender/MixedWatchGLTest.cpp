@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Files that are edited while frames run.
+#include "osgMultiRender/MixedPictures.h"
+
+#include <osgMultiRender/MixFile.h>
+#include <support/TemporaryFolder.h>
+
+#include <chrono>
+#include <thread>
+
+using namespace osgMultiRender;
+
+namespace
+{
+
+class MixedWatchGLTest : public MixedPictures
+{
+protected:
+    static std::string shader(const std::string& color)
+    {
+        return "void main()\n{\n    gl_FragColor = vec4(" + color + ", 1.0);\n}\n";
+    }
+
+    /// Of a pixel of the model.
+    osg::Vec3 color()
+    {
+        const osg::ref_ptr<osg::Image> picture = draw();
+        const osg::Vec4 pixel = picture->getColor(Size / 2, Size / 3);
+        return {pixel.r(), pixel.g(), pixel.b()};
+    }
+
+    /// Draws until the colour is there, at most 20 s; all before has to be `before`.
+    void waitFor(const osg::Vec3& before, const osg::Vec3& after)
+    {
+        osg::Vec3 now = before;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        while (now == before && std::chrono::steady_clock::now() < end)
+        {
+            now = color();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        EXPECT_EQ(now, after);
+    }
+
+    /// Draws for so long, and sees the colour all the time.
+    void expectFor(std::chrono::milliseconds time, const osg::Vec3& expected)
+    {
+        const auto end = std::chrono::steady_clock::now() + time;
+        while (std::chrono::steady_clock::now() < end)
+            ASSERT_EQ(color(), expected);
+    }
+
+    const osg::Vec3 _red{1, 0, 0}, _green{0, 1, 0}, _blue{0, 0, 1};
+    const support::TemporaryFolder _folder;
+};
+
+} // namespace
+
+TEST_F(MixedWatchGLTest, anEditedShaderIsSeenLiveAndABrokenOneLeavesWhatWasThere)
+{
+    const std::string file = _folder.write("own.frag", shader("1.0, 0.0, 0.0"));
+    _scene->addRendering(importRendering(file));
+    _scene->setWatching(true);
+    EXPECT_EQ(color(), _red);
+    _folder.write("own.frag", shader("0.0, 1.0, 0.0"));
+    waitFor(_red, _green);
+    support::NotifyCapture capture;
+    _folder.write("own.frag", shader("0.0, missing, 0.0"));
+    expectFor(std::chrono::milliseconds(2500), _green);
+    const support::NotifyCapture::Lines warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("own.frag:3"), std::string::npos) << warnings[0];
+    _folder.write("own.frag", shader("0.0, 0.0, 1.0"));
+    waitFor(_green, _blue);
+    _scene->setWatching(false);
+    _folder.write("own.frag", shader("1.0, 0.0, 0.0"));
+    expectFor(std::chrono::milliseconds(1500), _blue);
+}
+
+TEST_F(MixedWatchGLTest, anEditedMixTakesThePlaceOfTheOneBefore)
+{
+    _folder.write("red.frag", shader("1.0, 0.0, 0.0"));
+    _folder.write("green.frag", shader("0.0, 1.0, 0.0"));
+    const std::string mix =
+        _folder.write("a.mix", R"({"renderings": [{"file": "red.frag"}], "watch": "on"})");
+    std::string error;
+    ASSERT_TRUE(readMixFile(*_scene, mix, error)) << error;
+    EXPECT_TRUE(_scene->isWatching());
+    EXPECT_EQ(color(), _red);
+    support::NotifyCapture capture;
+    _folder.write("a.mix", "{\n\"renderings\": [{]}");
+    expectFor(std::chrono::milliseconds(2200), _red);
+    const support::NotifyCapture::Lines warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("a.mix: line 2"), std::string::npos) << warnings[0];
+    _folder.write("a.mix", R"({"renderings": [{"file": "green.frag"}], "points": [[1, 2, 3]]})");
+    waitFor(_red, _green);
+    EXPECT_EQ(_scene->getRenderings().size(), 1u);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 1u);
+}
