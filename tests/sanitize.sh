@@ -9,7 +9,9 @@ folder=build-${sanitizers//,/-}
 OSGKITS_TARGETS=osgMultiRender ./setup.sh
 cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DOSGKITS_SANITIZE="$sanitizers" >/dev/null
 targets=(osgMultiRender.{GlslToken,GlslSource,GlslWrap,SurfaceKey,SurfaceState,PseudoLoader}Test
-    osgShadowVolume.{LightReach,LightGrid}Test precision.PrecisionTest)
+    osgShadowVolume.{LightReach,LightGrid}Test
+    osgPagedTexture.{ImageFile,ImageFileError,DamagedJpeg,ChainCache,SourceIndex,WorkerPool,ChainLoader,ChainLoaderFailure}Test
+    precision.PrecisionTest)
 NINJA_STATUS="[%f/%t] " cmake --build "$folder" --target "${targets[@]}"
 # OSG keeps its registries until the end, so leaks are looked for in the GLSL model alone (tests/fuzz).
 export ASAN_OPTIONS=detect_leaks=0
