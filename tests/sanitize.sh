@@ -14,6 +14,6 @@ targets=(osgMultiRender.{GlslToken,GlslSource,GlslWrap,SurfaceKey,SurfaceState,P
     precision.PrecisionTest)
 NINJA_STATUS="[%f/%t] " cmake --build "$folder" --target "${targets[@]}"
 # OSG keeps its registries until the end, so leaks are looked for in the GLSL model alone (tests/fuzz).
-export ASAN_OPTIONS=detect_leaks=0
+export ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=suppressions=$PWD/tests/thread-suppressions.txt
 regex=$(IFS='|'; echo "^(${targets[*]})\$")
 ctest --test-dir "$folder" -R "${regex//./\\.}" --output-on-failure
