@@ -26,7 +26,7 @@ struct ChainFileLayout
     int height = 0;
     int firstLevel = 0;
     ContentHash key;
-    std::uint64_t tableChecksum = 0; ///< Of the checksums of the levels.
+    std::uint64_t tableChecksum = 0; ///< Of the checksums of the levels and of the header.
 
     int levels() const { return levelCount(width, height) - firstLevel; }
     std::size_t headerBytes() const;
@@ -34,6 +34,7 @@ struct ChainFileLayout
     std::uint64_t levelOffset(int level) const;
     std::uint64_t tableOffset() const { return levelOffset(firstLevel + levels()); }
     std::string header() const;
+    std::uint64_t checksumOf(const char* table) const; ///< What tableChecksum should be.
 };
 
 /// More than any header.

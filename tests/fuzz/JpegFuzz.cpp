@@ -37,7 +37,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     ReadSettings settings;
     settings.reduction = static_cast<int>(size % 6);
     settings.linearLight = size % 2;
-    settings.limits.maxPixels = 1 << 22; // the time of an input, not the memory
+    settings.limits.maxPixels = 1 << 20; // the time of an input, not the memory
     try
     {
         ImageInfo info;
