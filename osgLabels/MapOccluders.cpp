@@ -229,8 +229,13 @@ void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
     if (_placed.empty())
         return;
     select(frame);
-    if (_actions.empty())
-        return;
+    if (!_actions.empty())
+        drawLayers(renderInfo, frame);
+    findShown(renderInfo);
+}
+
+void MapPass::drawLayers(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
+{
     osg::State& state = *renderInfo.getState();
     const bool next = std::any_of(_needsNext.begin(), _needsNext.end(), [](bool b) { return b; });
     _targets = _scene.targets.acquire(
