@@ -106,11 +106,11 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
             {
                 Node& node = _nodes[each];
                 node.last = next - 1;
-                _ranges[node.name] = {node.number, node.last};
+                if (node.name && _isUsed[node.name])
+                    _ranges[node.name] = {node.number, node.last};
             }
         path.pop_back();
     }
-    _ranges[None] = Range{};
 }
 
 void FeatureTree::update()
