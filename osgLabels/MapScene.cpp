@@ -171,8 +171,9 @@ void MapScene::prepareValued(const osg::Matrixd& groupToEye, std::vector<EyeLabe
         label.part = each.part;
         _valued.push_back({each.path, label});
     }
-    for (const Valued& each : _valued)
+    for (Valued& each : _valued)
     {
+        texts.update(each.label);
         osg::RefNodePath path;
         if (!each.path.getRefNodePath(path))
             continue;
