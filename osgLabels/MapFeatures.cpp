@@ -3,9 +3,11 @@
 
 #include <osg/ComputeBoundsVisitor>
 #include <osg/Geometry>
+#include <osg/Notify>
 #include <osg/Transform>
 #include <osg/ValueObject>
 
+#include <cmath>
 #include <unordered_map>
 
 namespace osgLabels
@@ -92,6 +94,12 @@ void MapFeatures::addValued(const osg::NodePath& path, std::size_t depth, Featur
         valued.label.priority = single;
     else if (node.getUserValue("labelPriority", whole))
         valued.label.priority = whole;
+    if (!std::isfinite(valued.label.priority))
+    {
+        OSG_WARN << "osgLabels::LabelScene: labelPriority of node '" << node.getName()
+                 << "' is no finite number; it counts as 0" << std::endl;
+        valued.label.priority = 0.0;
+    }
     node.getUserValue("labelStyle", valued.label.style);
     valued.label.anchor = topOf(upTo);
     valued.path.setNodePath(upTo);

@@ -7,6 +7,7 @@
 
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,10 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
 {
     const osg::Matrixd groupToEye(*visitor.getModelViewMatrix());
     _groupToEye = groupToEye;
+    // A camera that is nested in the view has a viewport of its own.
+    const osg::Viewport* ofStage = visitor.getCurrentRenderBin()->getStage()->getViewport();
+    if (visitor.getViewport() != ofStage)
+        _ownViewport = visitor.getViewport();
     std::vector<MapFeatures::Drawn> drawn;
     std::vector<const osgUtil::RenderLeaf*> drawnLeaves;
     const auto addGroup = [&](const osg::RefMatrix* projection, std::size_t begin)
@@ -56,7 +61,7 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
         drawnLeaves.push_back(leaf);
     }
     const std::size_t begin = _labels.size();
-    _scene.prepareValued(groupToEye, _labels);
+    _scene.prepareValued(groupToEye, visitor.getTraversalMask(), _labels);
     addGroup(visitor.getProjectionMatrix(), begin);
     if (_labels.empty())
         return;
@@ -101,20 +106,11 @@ void MapPass::begin(osg::RenderInfo& renderInfo, const osg::Camera* camera,
         _memory = _scene.getMemory(camera);
 }
 
-void MapPass::place(const osgMultiRender::SurfaceFrame& frame)
+void MapPass::place()
 {
     if (_labels.empty())
         return;
-    // A camera that is nested in the view has its viewport in the state of its leaves.
-    const osg::Viewport* own = nullptr;
-    frame.forEachItem(
-        [&](const osgMultiRender::SurfaceItem& item)
-        {
-            using osgMultiRender::SurfaceState;
-            if (item.state && !own)
-                own = static_cast<const osg::Viewport*>(item.state->get(SurfaceState::Viewport));
-        });
-    if (own)
+    if (const osg::Viewport* own = _ownViewport.get())
     {
         const double values[] = {own->x(), own->y(), own->width(), own->height()};
         std::copy(std::begin(values), std::end(values), std::begin(_viewport));

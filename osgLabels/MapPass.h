@@ -6,6 +6,8 @@
 
 #include <osgMultiRender/SurfaceFrame.h>
 
+#include <osg/Viewport>
+
 #include <array>
 
 namespace osgLabels
@@ -62,7 +64,7 @@ private:
 
     /// Takes a leaf that holds many objects; false for others.
     bool addMany(const osgUtil::RenderLeaf& leaf);
-    void place(const osgMultiRender::SurfaceFrame& frame);
+    void place();
     void placeAll();
     bool isBefore(std::uint32_t a, std::uint32_t b) const;
     /// Whether the states of labels are found in this frame.
@@ -89,6 +91,7 @@ private:
     const LabelSettings _settings;
     osg::ref_ptr<MapMemory> _memory;
     osg::Matrixd _groupToEye;
+    osg::ref_ptr<const osg::Viewport> _ownViewport; ///< Null: that of the stage.
     double _time = 0.0;
     unsigned int _contextID = 0;
     int _language = 330;

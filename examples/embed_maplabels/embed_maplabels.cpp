@@ -18,7 +18,6 @@ namespace
 {
 
 using osgLabels::LabelScene;
-using osgLabels::MapLabel;
 using osgLabels::MapLabels;
 
 void add(osg::Group& parent, const std::string& name, osg::Shape* shape, const osg::Vec4& color)
@@ -34,21 +33,18 @@ osg::ref_ptr<osg::Group> makeTown()
 {
     osg::ref_ptr<osg::Group> town = new osg::Group;
     add(*town, "ground", new osg::Box({0, 0, -0.5f}, 120, 120, 1), {0.5f, 0.58f, 0.42f, 1});
-    std::vector<MapLabel> labels;
+    std::vector<osgLabels::MapLabel> labels;
     for (int i = 0; i < 25; ++i)
     {
         const osg::Vec3 at(float(i % 5) * 18.0f - 36.0f, float(i / 5) * 18.0f - 36.0f, 0.0f);
         const float height = 4.0f + float(i * 7 % 11);
+        const osg::Vec3 middle = at + osg::Vec3(0, 0, 0.5f * height);
         const std::string name = "house " + std::to_string(i + 1);
-        add(*town, name, new osg::Box(at + osg::Vec3(0, 0, 0.5f * height), 9, 8, height),
+        add(*town, name, new osg::Box(middle, 9, 8, height),
             {0.6f + 0.01f * float(i), 0.55f, 0.5f - 0.01f * float(i), 1});
         add(*town, "tree", new osg::Sphere(at + osg::Vec3(8, 5, 2.5f), 2.2f),
             {0.25f, 0.5f, 0.2f, 1});
-        labels.push_back({at + osg::Vec3(0, 0, 0.5f * height),
-                          "House " + std::to_string(i + 1),
-                          double(height),
-                          {},
-                          name});
+        labels.push_back({middle, "House " + std::to_string(i + 1), height, {}, name});
     }
     town->addChild(new MapLabels(labels));
     return town;
@@ -80,7 +76,7 @@ struct Asker : osgGA::GUIEventHandler
             event.getButton() == osgGA::GUIEventAdapter::LEFT_MOUSE_BUTTON)
         {
             _scene->pick(event.getXnormalized(), event.getYnormalized());
-            viewer.requestRedraw();
+            viewer.requestRedraw(); // It is answered by the next picture.
         }
         if (const auto picked = _scene->takePicked(); picked && picked->identifier)
             std::printf("%s\n", picked->text.c_str());
@@ -97,7 +93,6 @@ int main(int argc, char** argv)
     osg::ArgumentParser arguments(&argc, argv);
     osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
     usage.addCommandLineOption("-s <name=value>", "A setting of .labels, as mapaction=fade");
-    usage.addCommandLineOption("-h or --help", "This");
     osgViewer::Viewer viewer(arguments); // Takes -e, --window and others.
     if (arguments.read("-h") || arguments.read("--help"))
         return usage.write(std::cout), 0;

@@ -4,8 +4,12 @@
 
 #include <support/NotifyCapture.h>
 
+#include <osg/Camera>
+#include <osg/Switch>
 #include <osg/ValueObject>
 #include <osgGA/EventQueue>
+
+#include <limits>
 
 using namespace mapScene;
 using labelScene::box;
@@ -127,6 +131,51 @@ TEST_F(MapChange, aStyleIsExchangedAtRunTime)
     EXPECT_GT(redPixels(*drawOne(*top)), 0);
     EXPECT_FALSE(top->setStyle(0xF0000000u, "blue"));
     EXPECT_EQ(_notify.takeWarnings(), support::NotifyCapture::Lines());
+}
+
+TEST_F(MapChange, labelsByValueGoWithTheirNodes)
+{
+    osg::ref_ptr<osg::Geode> valued = box("own", {0, 1, -0.6f}, {0.2f, 0.1f, 0.2f});
+    valued->setUserValue("label", std::string("by value"));
+    osg::ref_ptr<osg::Switch> choice = new osg::Switch;
+    choice->addChild(valued);
+    const auto top = scene({half(), choice}, "map=values");
+    const int all = redPixels(*render(*top));
+    EXPECT_GT(all, 100);
+    choice->setAllChildrenOff();
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "switched off";
+    choice->setAllChildrenOn();
+    EXPECT_EQ(redPixels(*drawOne(*top)), all);
+    labelScene::viewer().getViewer().getCamera()->setCullMask(1u);
+    valued->setNodeMask(2u);
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "masked in this view";
+    labelScene::viewer().getViewer().getCamera()->setCullMask(~0u);
+    EXPECT_EQ(redPixels(*drawOne(*top)), all);
+    choice->removeChild(valued);
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "taken out, while somebody keeps it";
+}
+
+TEST_F(MapChange, aPriorityByValueThatIsNoNumberIsNamed)
+{
+    osg::ref_ptr<osg::Geode> valued = box("own", {0, 1, -0.6f}, {0.2f, 0.1f, 0.2f});
+    valued->setUserValue("label", std::string("by value"));
+    valued->setUserValue("labelPriority", std::numeric_limits<double>::quiet_NaN());
+    EXPECT_GT(redPixels(*render(*scene({valued}, "map=values"))), 100);
+    EXPECT_EQ(_notify.takeWarnings(),
+              support::NotifyCapture::Lines({"osgLabels::LabelScene: labelPriority of node 'own' "
+                                             "is no finite number; it counts as 0"}));
+}
+
+TEST_F(MapChange, anInsetBelowTheSceneDoesNotMoveItsLabels)
+{
+    osg::ref_ptr<osg::Camera> inset = new osg::Camera;
+    inset->setRenderOrder(osg::Camera::NESTED_RENDER);
+    inset->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+    inset->setViewport(0, 0, 40, 40);
+    inset->addChild(box("hud", {0, 0, 0}, {0.5f, 0.5f, 0.5f}));
+    const auto with = scene({inset, half(), label("text", {0.5, 0, 0.5})});
+    const auto without = scene({half(), label("text", {0.5, 0, 0.5})});
+    EXPECT_EQ(redPixels(*render(*with)), redPixels(*render(*without)));
 }
 
 TEST_F(MapChange, labelsThatAreSetAnewKeepTheirIdentifiers)
