@@ -133,7 +133,8 @@ void MapMemory::findSights(osg::State& state, const std::vector<PlacedLabel>& la
             keys.push_back(label.label->key);
     }
     else
-        _feedback.take(state, keys, states);
+        while (_feedback.take(state, keys, states)) // the newest that has come
+            ;
     if (!keys.empty())
     {
         _fed.clear();

@@ -79,6 +79,8 @@ void main()
     int action = isSeen ? osgLabels_Ignore : counts[most] > 0 ? most : was;
     bool isHeld = osgLabels_time.x - old.g < osgLabels_time.y ||
                   (osgLabels_anchor.w >= 0.0 && osgLabels_anchor.w < osgLabels_time.y);
+    // A hidden label comes after decluttering has learnt of it, so that it doesn't take it away later.
+    isHeld = isHeld || (was == osgLabels_Hide && osgLabels_anchor.w >= 0.0 && osgLabels_isMoving != 0);
     // Where all rests what was held back is dropped, so that nothing changes any more.
     bool isNew = osgLabels_isMoving == 0 && (sight != old.b || old.a > 0.5);
     bool changes = action != was && !isHeld && (osgLabels_isMoving != 0 || isNew);
