@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace osgLabels
 {
@@ -46,12 +47,13 @@ struct Strength
 Declutter::Declutter(const DeclutterSettings& settings) : _settings(settings) {}
 
 const std::vector<std::uint8_t>& Declutter::update(const std::vector<DeclutterLabel>& labels,
-                                                   const glm::vec2& view, double time)
+                                                   const glm::vec2& view, double time,
+                                                   const std::vector<DeclutterSight>& sights)
 {
     const bool isRest = isAsBefore(labels, view);
     _isCut = !(time > _time);
     _time = time;
-    if (isRest)
+    if (isRest && !(_isCut && !sights.empty()))
         return _shown;
     carryOver(labels);
     _labels = labels;
@@ -60,17 +62,21 @@ const std::vector<std::uint8_t>& Declutter::update(const std::vector<DeclutterLa
     _numShown = 0;
     if (!(view.x > 0.0f && view.y > 0.0f))
         return _shown;
-    collectHeld();
+    collectBefore();
     _taken.reset(view);
     for (const std::uint32_t label : _order)
     {
         State& state = _states[label];
+        const DeclutterSight sight = label < sights.size() ? sights[label] : DeclutterSight();
         if (!isInView(_labels[label].rectangle))
         {
-            state = State();
+            if (!isHeld(state))
+                state = State();
             continue;
         }
-        const bool isShown = decide(label);
+        if (state.isShown)
+            state.since = std::max(state.since, sight.since);
+        const bool isShown = decide(label, sight.what);
         if (isShown != state.isShown && !_isCut)
             state.since = time;
         state.isShown = isShown;
@@ -101,14 +107,34 @@ void Declutter::carryOver(const std::vector<DeclutterLabel>& labels)
         for (std::size_t i = 0; i < _labels.size(); ++i)
             index.add(_labels[i].key, static_cast<std::uint32_t>(i));
         std::vector<State> states(labels.size());
+        std::vector<bool> isTaken(_labels.size());
         for (std::size_t i = 0; i < labels.size(); ++i)
-            if (const std::uint32_t last = index.take(labels[i].key); last != KeyIndex::None)
+        {
+            const std::uint32_t last = index.take(labels[i].key);
+            if (last != KeyIndex::None)
+            {
                 states[i] = _states[last];
+                isTaken[last] = true;
+            }
+            else if (const auto gone = _gone.find(labels[i].key); gone != _gone.end())
+            {
+                states[i] = gone->second;
+                _gone.erase(gone);
+            }
+        }
+        for (std::size_t i = 0; i < _labels.size(); ++i)
+            if (!isTaken[i] && isHeld(_states[i]))
+                _gone[_labels[i].key] = _states[i];
+        for (auto each = _gone.begin(); each != _gone.end();)
+            each = isHeld(each->second) ? std::next(each) : _gone.erase(each);
         _states = std::move(states);
         sort(labels);
     }
     if (_isCut)
+    {
         std::fill(_states.begin(), _states.end(), State());
+        _gone.clear();
+    }
 }
 
 void Declutter::sort(const std::vector<DeclutterLabel>& labels)
@@ -130,16 +156,18 @@ void Declutter::sort(const std::vector<DeclutterLabel>& labels)
         _ranks[_order[i]] = static_cast<std::uint32_t>(i);
 }
 
-void Declutter::collectHeld()
+void Declutter::collectBefore()
 {
-    _held.reset(_view);
+    _before.reset(_view);
     for (std::size_t i = 0; i < _labels.size(); ++i)
-        if (_states[i].isShown && isHeld(_states[i]) && isInView(_labels[i].rectangle))
-            _held.add(spaceOf(_labels[i].rectangle), static_cast<std::uint32_t>(i));
+        if (_states[i].isShown && isInView(_labels[i].rectangle))
+            _before.add(spaceOf(_labels[i].rectangle), static_cast<std::uint32_t>(i));
 }
 
-bool Declutter::decide(std::uint32_t label) const
+bool Declutter::decide(std::uint32_t label, DeclutterSight::What what) const
 {
+    if (what == DeclutterSight::Hidden)
+        return false;
     const Rectangle rectangle = spaceOf(_labels[label].rectangle);
     const State& state = _states[label];
     const auto always = [](std::uint32_t) { return true; };
@@ -152,8 +180,10 @@ bool Declutter::decide(std::uint32_t label) const
         return !_taken.any(isHeld(state) ? grown(rectangle, -give) : rectangle, always);
     }
     const std::uint32_t rank = _ranks[label];
+    const auto isKept = [&](std::uint32_t other)
+    { return what == DeclutterSight::Unknown || (_ranks[other] > rank && isHeld(_states[other])); };
     return !isHeld(state) && !_taken.any(grown(rectangle, margin), always) &&
-           !_held.any(rectangle, [&](std::uint32_t other) { return _ranks[other] > rank; });
+           !_before.any(rectangle, isKept);
 }
 
 bool Declutter::isInView(const Rectangle& rectangle) const

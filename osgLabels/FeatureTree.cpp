@@ -58,43 +58,57 @@ bool FeatureTree::isFeature(const Node& node) const
     return node.isLabelled || (node.name && _isUsed[node.name]);
 }
 
-void FeatureTree::number(Part top, std::uint32_t around, std::uint32_t& next)
+/// All parts of one name are one feature: what lies in any of them gets numbers behind its own.
+void FeatureTree::number(const std::vector<std::vector<Part>>& named)
 {
     // Subgraphs may be deeper than the stack.
     struct Step
     {
-        Part part;
-        std::size_t child;
+        std::vector<Part> parts;
         std::uint32_t number;
-        std::uint32_t inner; ///< First number that what is inside may get.
+        bool isFeature;
+        std::size_t part = 0, child = 0;
     };
-    std::vector<Step> path{{top, 0, around, next}};
+    std::uint32_t next = First;
+    std::vector<bool> isDone(_nodes.size());
+    std::vector<Step> path;
+    const auto enter = [&](Part part, std::uint32_t around)
+    {
+        const Node& node = _nodes[part];
+        const bool isNew = isFeature(node), hasName = node.name && _isUsed[node.name];
+        Step step{isNew && hasName ? named[node.name] : std::vector<Part>{part},
+                  isNew ? next++ : around, isNew};
+        for (const Part each : step.parts)
+        {
+            isDone[each] = true;
+            _nodes[each].number = _nodes[each].last = step.number;
+        }
+        path.push_back(std::move(step));
+    };
+    enter(Scene, Foreign);
     while (!path.empty())
     {
         Step& step = path.back();
-        Node& node = _nodes[step.part];
-        if (step.child == 0 && isFeature(node))
+        if (step.part < step.parts.size())
         {
-            Range* named = node.name && _isUsed[node.name] ? &_ranges[node.name] : nullptr;
-            const bool isAnother = named && named->first <= named->last;
-            step.number = isAnother ? named->first : next++;
-            step.inner = next;
-            if (named && !isAnother)
-                *named = {step.number, step.number};
-        }
-        node.number = step.number;
-        if (step.child < node.inside.size())
-        {
-            const std::uint32_t number = step.number;
-            const Part inside = node.inside[step.child++];
-            path.push_back({inside, 0, number, next});
+            const std::vector<Part>& inside = _nodes[step.parts[step.part]].inside;
+            if (step.child == inside.size())
+            {
+                ++step.part;
+                step.child = 0;
+            }
+            else if (const Part child = inside[step.child++]; !isDone[child])
+                enter(child, step.number);
             continue;
         }
-        // Of several parts with one name the first one's numbers follow its own.
-        const bool isFirst = step.inner == step.number + 1;
-        node.last = isFeature(node) && isFirst ? next - 1 : node.number;
-        if (isFeature(node) && isFirst && node.name && _isUsed[node.name])
-            _ranges[node.name].last = node.last;
+        for (const Part each : step.parts)
+            if (step.isFeature)
+            {
+                Node& node = _nodes[each];
+                node.last = next - 1;
+                if (node.name && _isUsed[node.name])
+                    _ranges[node.name] = {node.number, node.last};
+            }
         path.pop_back();
     }
 }
@@ -106,8 +120,11 @@ void FeatureTree::update()
     _isCurrent = true;
     ++_modifiedCount;
     std::fill(_ranges.begin(), _ranges.end(), Range{});
-    std::uint32_t next = First;
-    number(Scene, Foreign, next);
+    std::vector<std::vector<Part>> named(_isUsed.size());
+    for (Part part = 0; part < _nodes.size(); ++part)
+        if (const Name name = _nodes[part].name; name && _isUsed[name])
+            named[name].push_back(part);
+    number(named);
 }
 
 std::uint32_t FeatureTree::getNumber(Part part)

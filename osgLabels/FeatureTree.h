@@ -62,7 +62,7 @@ private:
     };
 
     void update();
-    void number(Part part, std::uint32_t around, std::uint32_t& next);
+    void number(const std::vector<std::vector<Part>>& named);
     bool isFeature(const Node& node) const;
 
     std::vector<Node> _nodes{1};

@@ -227,13 +227,18 @@ bool LabelResources::setStyle(std::uint32_t identifier, const std::string& name)
     const std::optional<std::uint32_t> style = styleOf(name);
     if (!collector || !style)
         return false;
+    if (identifier >= MapScene::FirstIdentifier)
+        return map->texts.setStyle(identifier - MapScene::FirstIdentifier, *style);
     return batches.find(identifier).batch ? table->setStyle(identifier, *style)
                                           : collector->setStyle(identifier, *style);
 }
 
 std::string LabelResources::getStyle(std::uint32_t identifier) const
 {
-    const std::uint32_t style = table->getStyle(identifier);
+    const std::uint32_t style =
+        map && identifier >= MapScene::FirstIdentifier
+            ? map->texts.getStyle(identifier - MapScene::FirstIdentifier).value_or(0)
+            : table->getStyle(identifier);
     return style && style < settings.styles.size() ? settings.styles[style].name
                                                    : LabelStyle::DefaultName;
 }

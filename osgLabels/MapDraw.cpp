@@ -7,14 +7,13 @@
 #include <osg/Point>
 #include <osg/Viewport>
 
+#include <algorithm>
+
 namespace osgLabels
 {
 
 namespace
 {
-
-/// How long a label stays as it is when it is hidden as a whole.
-constexpr float secondsOfState = 1.0f;
 
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
@@ -57,22 +56,83 @@ osg::ref_ptr<osg::Uniform> looksOf(const std::vector<LabelStyle>& styles)
 
 void MapPass::upload(osg::State& state)
 {
-    std::vector<std::uint32_t> last(_placed.size());
-    if (_settings.mapTest != MapTest::Pixel)
-        last = _memory->begin(state, _placed, _time);
     std::vector<MapQuads::Words> words;
     words.reserve(_placed.size());
-    for (std::size_t i = 0; i < _placed.size(); ++i)
+    for (const PlacedLabel& each : _placed)
     {
-        const PlacedLabel& each = _placed[i];
         const EyeLabel& label = *each.label;
         words.push_back({float(each.center.x()), float(each.center.y()), float(each.em),
                          label.width, float(each.anchor.x()), float(each.anchor.y()),
-                         float(each.distance), 1.0f, label.identifier, label.own.first,
-                         label.own.last, label.style | last[i] << 8});
+                         float(each.distance), -1.0f, label.identifier, label.own.first,
+                         label.own.last, label.style});
     }
-    _quads = _scene.quads.acquire(_contextID, {});
-    _quads->set(state, words);
+    if (_settings.declutter)
+        for (const std::uint32_t index : _order)
+            words[index].age = _memory->getAge(index);
+    if (needsStates())
+    {
+        const std::vector<MapMemory::Past>& pasts = _memory->getPasts();
+        words.resize(pasts.size()); // those that are gone too
+        for (std::size_t i = 0; i < pasts.size(); ++i)
+            words[i].style |= (pasts[i].isGone ? MapQuads::Gone : 0u) | pasts[i].last << 8;
+    }
+    if (!_quads)
+        _quads = _scene.quads.acquire(_contextID, {});
+    _quads->set(state, words, _order);
+}
+
+bool MapPass::needsStates() const
+{
+    // Where nothing stands before anything all are seen.
+    return _settings.mapTest != MapTest::Pixel || (_settings.declutter && _targets);
+}
+
+void MapPass::takeShown(const std::vector<std::uint8_t>* shown)
+{
+    _order.clear();
+    for (std::uint32_t i = 0; i < _placed.size(); ++i)
+        if (!shown || (*shown)[i])
+            _order.push_back(i);
+    std::sort(_order.begin(), _order.end(),
+              [this](std::uint32_t a, std::uint32_t b) { return isBefore(a, b); });
+}
+
+/// Which labels are shown, and what becomes of them as a whole.
+void MapPass::findShown(osg::RenderInfo& renderInfo)
+{
+    osg::State& state = *renderInfo.getState();
+    const bool isTested = needsStates();
+    if (_memory)
+    {
+        MapCamera camera{_groupToEye, {}, _view};
+        for (const Group& group : _groups)
+            camera.projections.push_back(group.projection ? osg::Matrixd(*group.projection)
+                                                          : osg::Matrixd());
+        _memory->begin(state, _placed, camera, _time);
+    }
+    if (!_settings.declutter)
+    {
+        takeShown(nullptr);
+        upload(state);
+        if (isTested)
+            findStates(renderInfo);
+        return;
+    }
+    // A picture that stands for itself has no time to wait for what is hidden in it; others take
+    // what was so a few frames ago.
+    const bool isAtOnce = isTested && _memory->isCut();
+    if (isAtOnce)
+    {
+        upload(state);
+        findStates(renderInfo);
+    }
+    {
+        osgMultiRender::FramebufferVisit visit(state);
+        takeShown(&_memory->declutter(state, _placed, _view, isTested));
+    }
+    upload(state);
+    if (isTested && !isAtOnce)
+        findStates(renderInfo);
 }
 
 /// Program, textures and uniforms that look at what stands before labels.
@@ -85,6 +145,7 @@ osg::ref_ptr<osg::StateSet> MapPass::makePass(osg::State& state, bool isTest)
     kind.isTest = isTest;
     kind.states = !isTest && _settings.mapTest != MapTest::Pixel;
     kind.anchored = isTest && _settings.mapTest == MapTest::Anchor;
+    kind.wholly = isTest && _settings.mapTest == MapTest::Pixel;
     osg::ref_ptr<osg::StateSet> pass =
         new osg::StateSet(*_scene.programs.get(kind, _resources.getDefines(_isPaged, 0)));
     const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
@@ -121,11 +182,14 @@ void MapPass::findStates(osg::RenderInfo& renderInfo)
     pass->setAttribute(new osg::Viewport(0, 0, size.x(), size.y()), Over);
     pass->setAttribute(new osg::Point(1.0f), Over);
     pass->addUniform(new osg::Uniform("osgLabels_stateSize", size), Over);
+    pass->addUniform(new osg::Uniform("osgLabels_isMoving", int(_memory->isMoving())), Over);
     pass->addUniform(
-        new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), secondsOfState)), Over);
+        new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), MapMemory::Hold)), Over);
     state.pushStateSet(pass);
     state.apply();
     _quads->drawPoints(renderInfo);
+    if (_settings.declutter && !_memory->isCut())
+        _memory->startFeedback(state, _placed);
     state.popStateSet();
 }
 
@@ -134,15 +198,13 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     if (_placed.empty())
         return;
     osg::State& state = *renderInfo.getState();
-    upload(state);
-    if (_settings.mapTest != MapTest::Pixel)
-        findStates(renderInfo);
     const osg::ref_ptr<osg::StateSet> pass = makePass(state, false);
     _resources.updateGlyphs(*pass);
     const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
     add(new osg::Uniform("osgLabels_viewport",
                          osg::Vec4(float(_viewport[0]), float(_viewport[1]),
                                    2.0f / float(_viewport[2]), 2.0f / float(_viewport[3]))));
+    add(new osg::Uniform("osgLabels_orderAt", int(_quads->getOrderAt())));
     add(new osg::Uniform("osgLabels_color", _settings.mapColor));
     add(new osg::Uniform("osgLabels_fade", _settings.mapFade));
     add(looksOf(_settings.styles));

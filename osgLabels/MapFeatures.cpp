@@ -2,9 +2,12 @@
 #include <osgLabels/MapFeatures.h>
 
 #include <osg/ComputeBoundsVisitor>
+#include <osg/Geometry>
+#include <osg/Notify>
 #include <osg/Transform>
 #include <osg/ValueObject>
 
+#include <cmath>
 #include <unordered_map>
 
 namespace osgLabels
@@ -14,6 +17,9 @@ namespace
 {
 
 const char* const labelValue = "label";
+
+/// Vertices of a mesh that may be looked at in any frame.
+constexpr unsigned int smallMesh = 4096;
 
 bool hasLabel(const osg::Node& node, std::string& text)
 {
@@ -88,6 +94,12 @@ void MapFeatures::addValued(const osg::NodePath& path, std::size_t depth, Featur
         valued.label.priority = single;
     else if (node.getUserValue("labelPriority", whole))
         valued.label.priority = whole;
+    if (!std::isfinite(valued.label.priority))
+    {
+        OSG_WARN << "osgLabels::LabelScene: labelPriority of node '" << node.getName()
+                 << "' is no finite number; it counts as 0" << std::endl;
+        valued.label.priority = 0.0;
+    }
     node.getUserValue("labelStyle", valued.label.style);
     valued.label.anchor = topOf(upTo);
     valued.path.setNodePath(upTo);
@@ -106,7 +118,7 @@ std::optional<LabelSource::Found> MapFeatures::kindOf(const osg::NodePath& path)
     const auto [found, isNew] = _kindNumbers.emplace(kind, std::uint32_t(_kinds.size()));
     if (isNew)
         _kinds.push_back(kind);
-    return LabelSource::Found{std::to_string(found->second), path.size() - 1};
+    return LabelSource::Found{std::to_string(found->second), path.size() - 1, {}};
 }
 
 void MapFeatures::takeNew()
@@ -124,8 +136,28 @@ void MapFeatures::takeNew()
         std::lock_guard<std::mutex> lock(_mutex);
         if (object >= _objects.size())
             _objects.resize(object + 1);
-        _objects[object] = {std::uint32_t(std::stoul(kind)), known->second};
+        const std::uint64_t stamp = stampOf(*found.drawable);
+        _objects[object] = {std::uint32_t(std::stoul(kind)), known->second, stamp, stamp};
     }
+}
+
+/// Meshes that have changed: small ones at once, others when they have come to rest, so that one
+/// that is bent in each frame does not cost a look at all its edges.
+void MapFeatures::judgeAgain(std::uint32_t object, const osg::Drawable& drawable)
+{
+    if (object == 0 || object >= _objects.size())
+        return;
+    Object& known = _objects[object];
+    const std::uint64_t stamp = stampOf(drawable);
+    const bool rests = stamp == known.last;
+    known.last = stamp;
+    if (stamp == known.judged)
+        return;
+    const osg::Array* vertices = drawable.asGeometry()->getVertexArray();
+    if (!rests && vertices && vertices->getNumElements() > smallMesh)
+        return;
+    known.sides = sidesOf(drawable);
+    known.judged = stamp;
 }
 
 MapFeatures::Occluder MapFeatures::occluderOf(std::uint32_t object)
@@ -151,8 +183,11 @@ std::vector<MapFeatures::Occluder> MapFeatures::find(const osg::Group& group,
     std::vector<Occluder> found;
     found.reserve(drawn.size());
     std::lock_guard<std::mutex> lock(_mutex);
-    for (const std::uint32_t object : objects)
-        found.push_back(occluderOf(object));
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+    {
+        judgeAgain(objects[i], *drawn[i].drawable);
+        found.push_back(occluderOf(objects[i]));
+    }
     return found;
 }
 

@@ -82,6 +82,7 @@ private:
     void addValued(const osg::NodePath& path, std::size_t depth, FeatureTree::Part part);
     void takeNew();
     Occluder occluderOf(std::uint32_t object);
+    void judgeAgain(std::uint32_t object, const osg::Drawable& drawable);
 
     const MapClasses _classes;
     const FoundValued _found;
@@ -93,6 +94,8 @@ private:
     {
         std::uint32_t kind = 0;
         MeshSides sides = MeshSides::Open;
+        std::uint64_t judged = 0; ///< Stamp of the mesh whose sides these are,
+        std::uint64_t last = 0;   ///< and of the mesh in the last frame.
     };
     std::vector<Object> _objects; ///< By the collector's number.
     std::unordered_set<FeatureTree::Part> _valued;

@@ -80,6 +80,14 @@ bool isSolid(const SurfaceState& state)
     return state.isOn(SurfaceState::Blend) ? state.isOn(SurfaceState::DepthTest) : state.isOpaque();
 }
 
+/// Whether it is drawn into the viewport, not into that of an inset.
+bool isHere(const SurfaceState& state, const GLint (&viewport)[4])
+{
+    const auto* own = static_cast<const osg::Viewport*>(state.get(SurfaceState::Viewport));
+    return !own || (GLint(own->x()) == viewport[0] && GLint(own->y()) == viewport[1] &&
+                    GLint(own->width()) == viewport[2] && GLint(own->height()) == viewport[3]);
+}
+
 void setState(osg::StateSet& over, const GLint (&viewport)[4], const PixelBox& box)
 {
     over.setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]), Over);
@@ -188,7 +196,7 @@ void MapPass::select(SurfaceFrame& frame)
                 return;
             Occluder& occluder = found->second;
             const std::uint32_t actions = actionsOf(occluder);
-            if (!actions || !item.state || !isSolid(*item.state))
+            if (!actions || !item.state || !isSolid(*item.state) || !isHere(*item.state, _viewport))
                 return;
             PixelBox box = _view;
             double nearest = -1.0;
@@ -225,12 +233,17 @@ std::uint32_t MapPass::actionsOf(const Occluder& occluder) const
 
 void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
 {
-    place(frame);
+    place();
     if (_placed.empty())
         return;
     select(frame);
-    if (_actions.empty())
-        return;
+    if (!_actions.empty())
+        drawLayers(renderInfo, frame);
+    findShown(renderInfo);
+}
+
+void MapPass::drawLayers(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
+{
     osg::State& state = *renderInfo.getState();
     const bool next = std::any_of(_needsNext.begin(), _needsNext.end(), [](bool b) { return b; });
     _targets = _scene.targets.acquire(

@@ -7,6 +7,7 @@
 
 #include <osg/Viewport>
 #include <osgUtil/CullVisitor>
+#include <osgUtil/RenderStage>
 
 #include <algorithm>
 #include <cmath>
@@ -31,6 +32,11 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
                    const std::vector<const osgUtil::RenderLeaf*>& leaves)
 {
     const osg::Matrixd groupToEye(*visitor.getModelViewMatrix());
+    _groupToEye = groupToEye;
+    // A camera that is nested in the view has a viewport of its own.
+    const osg::Viewport* ofStage = visitor.getCurrentRenderBin()->getStage()->getViewport();
+    if (visitor.getViewport() != ofStage)
+        _ownViewport = visitor.getViewport();
     std::vector<MapFeatures::Drawn> drawn;
     std::vector<const osgUtil::RenderLeaf*> drawnLeaves;
     const auto addGroup = [&](const osg::RefMatrix* projection, std::size_t begin)
@@ -55,7 +61,7 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
         drawnLeaves.push_back(leaf);
     }
     const std::size_t begin = _labels.size();
-    _scene.prepareValued(groupToEye, _labels);
+    _scene.prepareValued(groupToEye, visitor.getTraversalMask(), _labels);
     addGroup(visitor.getProjectionMatrix(), begin);
     if (_labels.empty())
         return;
@@ -100,20 +106,11 @@ void MapPass::begin(osg::RenderInfo& renderInfo, const osg::Camera* camera,
         _memory = _scene.getMemory(camera);
 }
 
-void MapPass::place(const osgMultiRender::SurfaceFrame& frame)
+void MapPass::place()
 {
     if (_labels.empty())
         return;
-    // A camera that is nested in the view has its viewport in the state of its leaves.
-    const osg::Viewport* own = nullptr;
-    frame.forEachItem(
-        [&](const osgMultiRender::SurfaceItem& item)
-        {
-            using osgMultiRender::SurfaceState;
-            if (item.state && !own)
-                own = static_cast<const osg::Viewport*>(item.state->get(SurfaceState::Viewport));
-        });
-    if (own)
+    if (const osg::Viewport* own = _ownViewport.get())
     {
         const double values[] = {own->x(), own->y(), own->width(), own->height()};
         std::copy(std::begin(values), std::end(values), std::begin(_viewport));
@@ -123,9 +120,6 @@ void MapPass::place(const osgMultiRender::SurfaceFrame& frame)
     if (_view.isEmpty())
         return;
     placeAll();
-    _inView = unsigned(_placed.size());
-    if (_settings.declutter)
-        _memory->declutter(_placed, _view, _time);
 }
 
 void MapPass::placeAll()
@@ -140,16 +134,17 @@ void MapPass::placeAll()
             if (placeLabel(_labels[i], frame, _settings, placed))
                 _placed.push_back(placed);
     }
-    // The nearest is drawn last.
-    std::sort(_placed.begin(), _placed.end(),
-              [](const PlacedLabel& a, const PlacedLabel& b)
-              {
-                  if (a.distance != b.distance)
-                      return a.distance > b.distance;
-                  if (a.label->priority != b.label->priority)
-                      return a.label->priority < b.label->priority;
-                  return a.label->key < b.label->key;
-              });
+}
+
+/// The nearest is drawn last.
+bool MapPass::isBefore(std::uint32_t first, std::uint32_t second) const
+{
+    const PlacedLabel &a = _placed[first], &b = _placed[second];
+    if (a.distance != b.distance)
+        return a.distance > b.distance;
+    if (a.label->priority != b.label->priority)
+        return a.label->priority < b.label->priority;
+    return a.label->key < b.label->key;
 }
 
 MapAction MapPass::actionAt(osg::State& state, const PlacedLabel& label, int x, int y)
@@ -189,17 +184,18 @@ std::uint32_t MapPass::pick(osg::State& state, double x, double y)
     if (!_view.contains(px, py))
         return 0;
     osgMultiRender::FramebufferVisit visit(state);
-    for (auto label = _placed.rbegin(); label != _placed.rend(); ++label)
+    for (auto index = _order.rbegin(); index != _order.rend(); ++index)
     {
-        if (!label->plate.contains(px, py))
+        const PlacedLabel& label = _placed[*index];
+        if (!label.plate.contains(px, py))
             continue;
         MapAction action;
         if (_settings.mapTest == MapTest::Pixel)
-            action = actionAt(state, *label, int(std::floor(px)), int(std::floor(py)));
+            action = actionAt(state, label, int(std::floor(px)), int(std::floor(py)));
         else
-            action = MapAction(_memory->read(state, std::size_t(_placed.rend() - label) - 1));
+            action = MapAction(_memory->read(state, *index));
         if (action != MapAction::Hide)
-            return MapScene::FirstIdentifier + label->label->identifier;
+            return MapScene::FirstIdentifier + label.label->identifier;
     }
     return 0;
 }
@@ -209,14 +205,15 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
     using Decision = osgMultiRender::PlanEntry::Decision;
     if (_labels.empty())
         return;
-    if (!_inView)
+    if (_placed.empty())
     {
         plan.entries.push_back({"map labels", Decision::Dropped, "none is in view"});
         return;
     }
-    std::string text = std::to_string(_inView) + " in view";
-    if (_placed.size() < _inView)
-        text += ", " + std::to_string(_inView - _placed.size()) + " make way for others";
+    std::string text = std::to_string(_placed.size()) + " in view";
+    if (_order.size() < _placed.size())
+        text += ", " + std::to_string(_placed.size() - _order.size()) +
+                " make way for others or are hidden by surfaces";
     if (_drawn)
         text += ", " + std::to_string(_drawn) + " drawables may stand before them";
     if (_drawnNext)
@@ -226,8 +223,8 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
     if (_refused)
         text += ", " + std::to_string(_refused) + " don't because of their own programs";
     plan.entries.push_back({"map labels", Decision::Drawn, text});
-    plan.counts["map.labels"] = double(_placed.size());
-    plan.counts["map.labels.inView"] = _inView;
+    plan.counts["map.labels"] = double(_order.size());
+    plan.counts["map.labels.inView"] = double(_placed.size());
     plan.counts["map.occluders"] = _drawn;
     plan.counts["map.occluders.second"] = _drawnNext;
     plan.counts["map.occluders.leftOut"] = _leftOut;

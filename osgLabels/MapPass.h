@@ -6,6 +6,8 @@
 
 #include <osgMultiRender/SurfaceFrame.h>
 
+#include <osg/Viewport>
+
 #include <array>
 
 namespace osgLabels
@@ -62,12 +64,18 @@ private:
 
     /// Takes a leaf that holds many objects; false for others.
     bool addMany(const osgUtil::RenderLeaf& leaf);
-    void place(const osgMultiRender::SurfaceFrame& frame);
+    void place();
     void placeAll();
+    bool isBefore(std::uint32_t a, std::uint32_t b) const;
+    /// Whether the states of labels are found in this frame.
+    bool needsStates() const;
+    void findShown(osg::RenderInfo& renderInfo);
+    void takeShown(const std::vector<std::uint8_t>* shown);
     void select(osgMultiRender::SurfaceFrame& frame);
     bool boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& nearest) const;
     /// Bits of the actions of what a Drawable holds.
     std::uint32_t actionsOf(const Occluder& occluder) const;
+    void drawLayers(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame);
     void drawLayer(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
                    bool next);
     osg::ref_ptr<osg::StateSet> stateOf(int layer, bool next, int side) const;
@@ -82,6 +90,8 @@ private:
     MapScene& _scene;
     const LabelSettings _settings;
     osg::ref_ptr<MapMemory> _memory;
+    osg::Matrixd _groupToEye;
+    osg::ref_ptr<const osg::Viewport> _ownViewport; ///< Null: that of the stage.
     double _time = 0.0;
     unsigned int _contextID = 0;
     int _language = 330;
@@ -91,12 +101,13 @@ private:
     bool _isParallel = false;
     std::vector<EyeLabel> _labels;
     std::vector<Group> _groups;
-    std::vector<PlacedLabel> _placed; ///< In the order in which they are drawn.
+    std::vector<PlacedLabel> _placed;  ///< In the order of cull, which changes little.
+    std::vector<std::uint32_t> _order; ///< Those that are shown, as they are drawn.
     std::unordered_map<const osgUtil::RenderLeaf*, Occluder> _occluders;
     std::unique_ptr<MapCoverage> _coverage;
     std::vector<MapAction> _actions; ///< In use, the strongest first.
     std::array<bool, NumMapActions> _needsNext{};
-    unsigned int _inView = 0, _drawn = 0, _drawnNext = 0, _leftOut = 0;
+    unsigned int _drawn = 0, _drawnNext = 0, _leftOut = 0;
     std::size_t _refused = 0;
     osg::ref_ptr<MapTargets> _targets;
     osg::ref_ptr<MapQuads> _quads;

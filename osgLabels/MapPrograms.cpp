@@ -33,6 +33,8 @@ osg::ref_ptr<osg::Program> makeProgram(const MapPrograms::Kind& kind, const std:
         head += "#define OSGLABELS_STATES\n";
     if (kind.anchored)
         head += "#define OSGLABELS_ANCHORED\n";
+    if (kind.wholly)
+        head += "#define OSGLABELS_WHOLLY\n";
     const auto common = [](const char* name, const char* text)
     { return LabelSources::file(Shader::FRAGMENT, name, text); };
     const std::string table = common("labelTable.glsl", shaders::labelTable_glsl);

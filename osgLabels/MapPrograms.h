@@ -24,9 +24,13 @@ public:
         bool next = false;
         bool states = false;   ///< Labels are hidden as a whole.
         bool isTest = false;   ///< The program that finds the states,
-        bool anchored = false; ///< from anchors.
+        bool anchored = false; ///< from anchors,
+        bool wholly = false;   ///< or that says whether nothing of a label is seen.
 
-        auto tied() const { return std::tie(language, layers, next, states, isTest, anchored); }
+        auto tied() const
+        {
+            return std::tie(language, layers, next, states, isTest, anchored, wholly);
+        }
         bool operator<(const Kind& other) const { return tied() < other.tied(); }
     };
 

@@ -30,19 +30,27 @@ void MapQuads::draw(osg::RenderInfo& renderInfo, const osg::Geometry& shape)
     renderInfo.getState()->disableAllVertexArrays();
 }
 
-void MapQuads::set(osg::State& state, const std::vector<Words>& labels)
+void MapQuads::set(osg::State& state, const std::vector<Words>& labels,
+                   const std::vector<std::uint32_t>& order)
 {
     static_assert(sizeof(Words) == 48, "three texels");
+    constexpr std::size_t texel = 16;
     if (!_labels)
     {
         _labels = new BufferTexture(_contextID, 4, BufferTexture::needsPages(state));
         _quad = makeShape(GL_TRIANGLE_STRIP, 4);
         _point = makeShape(GL_POINTS, 1);
     }
-    for (const auto& shape : {_quad, _point})
-        shape->getPrimitiveSet(0)->setNumInstances(int(labels.size()));
-    _labels->resize(state, labels.size() * sizeof(Words));
-    _labels->write(state, 0, labels.data(), labels.size() * sizeof(Words));
+    _quad->getPrimitiveSet(0)->setNumInstances(int(order.size()));
+    _point->getPrimitiveSet(0)->setNumInstances(int(labels.size()));
+    const std::size_t bytes = labels.size() * sizeof(Words);
+    std::vector<std::uint32_t> padded = order;
+    padded.resize((order.size() + 3) / 4 * 4);
+    _orderAt = unsigned(bytes / texel);
+    _labels->resize(state, bytes + padded.size() * sizeof(padded[0]));
+    _labels->write(state, 0, labels.data(), bytes);
+    if (!padded.empty())
+        _labels->write(state, bytes, padded.data(), padded.size() * sizeof(padded[0]));
 }
 
 } // namespace osgLabels

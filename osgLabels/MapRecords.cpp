@@ -36,6 +36,20 @@ void MapRecords::update(const osg::Group& group)
     const std::uint64_t time = _batches.getTime();
     if (_taken == std::pair(_features.getModifiedCount(), time))
         return;
+    // Names that are new while these are taken change the numbers of others.
+    constexpr int tries = 3;
+    for (int i = 0; i < tries; ++i)
+    {
+        _taken = {_features.getModifiedCount(), time};
+        take(group);
+        if (_features.getModifiedCount() == _taken->first)
+            break;
+    }
+    ++_version;
+}
+
+void MapRecords::take(const osg::Group& group)
+{
     _words.clear();
     _actions = 0;
     set(0, {}); // of what has no record
@@ -61,9 +75,6 @@ void MapRecords::update(const osg::Group& group)
     for (const Chunked& each : _chunked)
         if (each.object)
             set(_objects.indexOf(each.object), _features.find(group, each.path));
-    // Names that are new while these are taken count the next time.
-    _taken = {_features.getModifiedCount(), time};
-    ++_version;
 }
 
 osg::ref_ptr<BufferTexture> MapRecords::upload(osg::State& state)

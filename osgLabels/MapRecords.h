@@ -37,6 +37,7 @@ public:
     void releaseGLObjects(osg::State* state);
 
 private:
+    void take(const osg::Group& group);
     void set(std::size_t record, const MapFeatures::Occluder& occluder);
 
     const LabelBatches& _batches;

@@ -5,6 +5,7 @@
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/Switch>
 #include <osg/Transform>
 #include <osgDB/FileUtils>
 #include <osgDB/fstream>
@@ -26,6 +27,25 @@ MapClasses classesOf(const LabelSettings& settings)
         OSG_WARN << "osgLabels::LabelScene: mapclass: " << error << "; it does not count"
                  << std::endl;
     return classes;
+}
+
+/// Whether nodes are still one below the other, and neither masked nor switched off.
+bool isShown(const osg::NodePath& path, osg::Node::NodeMask mask)
+{
+    for (std::size_t i = 0; i < path.size(); ++i)
+    {
+        if (!(path[i]->getNodeMask() & mask))
+            return false;
+        if (i == 0)
+            continue;
+        const osg::Group* parent = path[i - 1]->asGroup();
+        if (!parent || !parent->containsNode(path[i]))
+            return false;
+        if (const osg::Switch* choice = path[i - 1]->asSwitch();
+            choice && !choice->getChildValue(path[i]))
+            return false;
+    }
+    return true;
 }
 
 /// Hands over all nodes of labels.
@@ -139,7 +159,7 @@ void MapScene::activate(osg::Group& group)
     records.update(group);
 }
 
-bool MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
+void MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
                        std::vector<EyeLabel>& labels)
 {
     const auto prepared = texts.of(node);
@@ -154,10 +174,10 @@ bool MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
         label.own = features.getRange(from.feature);
         labels.push_back(label);
     }
-    return !prepared->empty();
 }
 
-void MapScene::prepareValued(const osg::Matrixd& groupToEye, std::vector<EyeLabel>& labels)
+void MapScene::prepareValued(const osg::Matrixd& groupToEye, osg::Node::NodeMask mask,
+                             std::vector<EyeLabel>& labels)
 {
     std::lock_guard<std::mutex> cullLock(_cullMutex);
     std::vector<MapFeatures::Valued> found;
@@ -171,19 +191,16 @@ void MapScene::prepareValued(const osg::Matrixd& groupToEye, std::vector<EyeLabe
         label.part = each.part;
         _valued.push_back({each.path, label});
     }
-    for (const Valued& each : _valued)
+    for (Valued& each : _valued)
     {
+        texts.update(each.label);
         osg::RefNodePath path;
         if (!each.path.getRefNodePath(path))
             continue;
         osg::NodePath nodes;
-        bool isShown = true;
         for (const osg::ref_ptr<osg::Node>& node : path)
-        {
             nodes.push_back(node.get());
-            isShown = isShown && node->getNodeMask() != 0;
-        }
-        if (!isShown)
+        if (!isShown(nodes, mask))
             continue;
         EyeLabel label;
         label.anchor = each.label.anchor * osg::computeLocalToWorld(nodes) * groupToEye;

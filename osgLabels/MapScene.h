@@ -30,10 +30,12 @@ public:
     /// Identifiers of map labels count from here, those of surface labels lie below.
     static constexpr std::uint32_t FirstIdentifier = 0x80000000u;
 
-    /// One view in cull: its labels in eye coordinates. False where the scene has none in view.
-    bool prepare(const MapLabels& node, const osg::Matrixd& localToEye,
+    /// One view in cull: its labels in eye coordinates.
+    void prepare(const MapLabels& node, const osg::Matrixd& localToEye,
                  std::vector<EyeLabel>& labels);
-    void prepareValued(const osg::Matrixd& groupToEye, std::vector<EyeLabel>& labels);
+    /// `mask`: of the traversal.
+    void prepareValued(const osg::Matrixd& groupToEye, osg::Node::NodeMask mask,
+                       std::vector<EyeLabel>& labels);
     /// Finds what stands before labels; from the first label in view on.
     void activate(osg::Group& group);
 

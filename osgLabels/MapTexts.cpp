@@ -27,39 +27,52 @@ float MapTexts::widthOf(const LabelTable::Codes& codes) const
     return width;
 }
 
-PreparedLabel MapTexts::prepare(const MapLabel& label)
+std::uint32_t MapTexts::newIdentifier()
 {
-    PreparedLabel prepared;
-    const LabelTable::Codes codes = _glyphs->codesOf(label.text);
-    prepared.anchor = label.anchor;
-    prepared.priority = label.priority;
-    prepared.style = _styleOf(label.style);
-    prepared.width = widthOf(codes);
-    prepared.feature = _features.use(label.feature);
     if (_free.empty())
     {
-        prepared.identifier = std::uint32_t(_texts.size());
         _texts.emplace_back();
+        return std::uint32_t(_texts.size() - 1);
     }
-    else
-    {
-        prepared.identifier = _free.back();
-        _free.pop_back();
-    }
-    _texts[prepared.identifier] = label.text;
-    _table->setCodes(prepared.identifier, codes);
+    const std::uint32_t identifier = _free.back();
+    _free.pop_back();
+    return identifier;
+}
+
+void MapTexts::setTextOf(std::uint32_t identifier, const std::string& text)
+{
+    Text& known = _texts[identifier];
+    if (known.text == text)
+        return;
+    const LabelTable::Codes codes = _glyphs->codesOf(text);
+    known.text = text;
+    known.width = widthOf(codes);
+    _table->setCodes(identifier, codes);
+}
+
+PreparedLabel MapTexts::prepare(const MapLabel& label, std::uint32_t identifier)
+{
+    setTextOf(identifier, label.text);
+    _texts[identifier].style = _styleOf(label.style);
+    PreparedLabel prepared;
+    prepared.identifier = identifier;
+    prepared.anchor = label.anchor;
+    prepared.priority = label.priority;
+    prepared.style = _texts[identifier].style;
+    prepared.width = _texts[identifier].width;
+    prepared.feature = _features.use(label.feature);
     return prepared;
 }
 
-void MapTexts::forget(const Known& known)
+/// Those from the first one on.
+void MapTexts::forget(const std::vector<PreparedLabel>& labels, std::size_t first)
 {
-    if (!known.labels)
-        return;
-    for (const PreparedLabel& label : *known.labels)
+    for (std::size_t i = first; i < labels.size(); ++i)
     {
-        _table->remove(label.identifier);
-        _texts[label.identifier].clear();
-        _free.push_back(label.identifier);
+        const std::uint32_t identifier = labels[i].identifier;
+        _table->remove(identifier);
+        _texts[identifier] = Text();
+        _free.push_back(identifier);
     }
 }
 
@@ -73,7 +86,8 @@ void MapTexts::sweep()
             ++known;
         else
         {
-            forget(known->second);
+            if (known->second.labels)
+                forget(*known->second.labels, 0);
             known = _known.erase(known);
         }
     _sweepAt = std::max<std::size_t>(64, 2 * _known.size());
@@ -86,7 +100,9 @@ std::shared_ptr<const std::vector<PreparedLabel>> MapTexts::of(const MapLabels& 
     Known& known = _known[&node];
     if (known.labels && known.node.get() == &node && known.modifiedCount == node.getModifiedCount())
         return known.labels;
-    forget(known);
+    // The same label has the same identifier from change to change, as far as its place says so.
+    const auto before =
+        known.labels ? known.labels : std::make_shared<std::vector<PreparedLabel>>();
     auto labels = std::make_shared<std::vector<PreparedLabel>>();
     std::size_t wrong = 0;
     for (const MapLabel& label : node.getLabels())
@@ -94,8 +110,11 @@ std::shared_ptr<const std::vector<PreparedLabel>> MapTexts::of(const MapLabels& 
         const bool isRight = std::isfinite(label.anchor.length2()) && std::isfinite(label.priority);
         wrong += !isRight;
         if (isRight && !label.text.empty())
-            labels->push_back(prepare(label));
+            labels->push_back(prepare(label, labels->size() < before->size()
+                                                 ? (*before)[labels->size()].identifier
+                                                 : newIdentifier()));
     }
+    forget(*before, labels->size());
     if (wrong)
         OSG_WARN << "osgLabels::MapLabels: " << wrong << " labels of node '" << node.getName()
                  << "' have an anchor or a priority that is no finite number; they are not shown"
@@ -107,16 +126,16 @@ std::shared_ptr<const std::vector<PreparedLabel>> MapTexts::of(const MapLabels& 
 PreparedLabel MapTexts::add(const MapLabel& label)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return prepare(label);
+    return prepare(label, newIdentifier());
 }
 
-bool MapTexts::setText(std::uint32_t identifier, const std::string& text)
+bool MapTexts::isKnown(std::uint32_t identifier) const
 {
-    std::lock_guard<std::mutex> lock(_mutex);
-    if (identifier == 0 || identifier >= _texts.size() || _texts[identifier].empty())
-        return false;
-    const LabelTable::Codes codes = _glyphs->codesOf(text);
-    _texts[identifier] = text;
+    return identifier < _texts.size() && !_texts[identifier].text.empty();
+}
+
+void MapTexts::updateNodes(std::uint32_t identifier)
+{
     for (auto& [node, known] : _known)
     {
         const auto& labels = *known.labels;
@@ -126,17 +145,53 @@ bool MapTexts::setText(std::uint32_t identifier, const std::string& text)
         if (found == labels.end())
             continue;
         auto changed = std::make_shared<std::vector<PreparedLabel>>(labels);
-        (*changed)[std::size_t(found - labels.begin())].width = widthOf(codes);
+        PreparedLabel& label = (*changed)[std::size_t(found - labels.begin())];
+        label.width = _texts[identifier].width;
+        label.style = _texts[identifier].style;
         known.labels = changed; // views hold the old ones
         break;
     }
-    return _table->setCodes(identifier, codes);
+}
+
+bool MapTexts::setText(std::uint32_t identifier, const std::string& text)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!isKnown(identifier))
+        return false;
+    setTextOf(identifier, text);
+    updateNodes(identifier);
+    return true;
+}
+
+bool MapTexts::setStyle(std::uint32_t identifier, std::uint32_t style)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!isKnown(identifier))
+        return false;
+    _texts[identifier].style = style;
+    updateNodes(identifier);
+    return true;
 }
 
 std::string MapTexts::getText(std::uint32_t identifier) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return identifier < _texts.size() ? _texts[identifier] : std::string();
+    return isKnown(identifier) ? _texts[identifier].text : std::string();
+}
+
+std::optional<std::uint32_t> MapTexts::getStyle(std::uint32_t identifier) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!isKnown(identifier))
+        return std::nullopt;
+    return _texts[identifier].style;
+}
+
+void MapTexts::update(PreparedLabel& label) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    label.width = _texts[label.identifier].width;
+    label.style = _texts[label.identifier].style;
 }
 
 } // namespace osgLabels

@@ -8,6 +8,8 @@
 
 #include <osg/observer_ptr>
 
+#include <optional>
+
 namespace osgLabels
 {
 
@@ -38,8 +40,13 @@ public:
     /// A label that stays as long as this.
     PreparedLabel add(const MapLabel& label);
 
+    /// False for an identifier that no label has.
     bool setText(std::uint32_t identifier, const std::string& text);
+    bool setStyle(std::uint32_t identifier, std::uint32_t style);
     std::string getText(std::uint32_t identifier) const;
+    std::optional<std::uint32_t> getStyle(std::uint32_t identifier) const;
+    /// Takes what setText() and setStyle() have changed in a label of add().
+    void update(PreparedLabel& label) const;
     const std::shared_ptr<LabelTable>& getTable() const { return _table; }
 
 private:
@@ -49,9 +56,19 @@ private:
         unsigned int modifiedCount = 0;
         std::shared_ptr<const std::vector<PreparedLabel>> labels;
     };
-    PreparedLabel prepare(const MapLabel& label);
+    struct Text
+    {
+        std::string text; ///< Empty: no label has the identifier.
+        std::uint32_t style = 0;
+        float width = 0.0f;
+    };
+    PreparedLabel prepare(const MapLabel& label, std::uint32_t identifier);
+    std::uint32_t newIdentifier();
+    bool isKnown(std::uint32_t identifier) const;
+    void setTextOf(std::uint32_t identifier, const std::string& text);
+    void updateNodes(std::uint32_t identifier);
     float widthOf(const LabelTable::Codes& codes) const;
-    void forget(const Known& known);
+    void forget(const std::vector<PreparedLabel>& labels, std::size_t first);
     void sweep();
 
     const std::shared_ptr<GlyphSet> _glyphs;
@@ -61,7 +78,7 @@ private:
     mutable std::mutex _mutex;
     std::unordered_map<const MapLabels*, Known> _known;
     std::size_t _sweepAt = 64;
-    std::vector<std::string> _texts{1}; ///< By identifier.
+    std::vector<Text> _texts{1}; ///< By identifier.
     std::vector<std::uint32_t> _free;
 };
 

@@ -177,4 +177,27 @@ MeshSides sidesOf(const osg::Drawable& drawable)
     return functor.volume > 0.0 ? MeshSides::Outward : MeshSides::Inward;
 }
 
+std::uint64_t stampOf(const osg::Drawable& drawable)
+{
+    const osg::Geometry* geometry = drawable.asGeometry();
+    if (!geometry)
+        return 0;
+    std::uint64_t stamp = 1;
+    const auto mix = [&stamp](std::uint64_t value)
+    {
+        stamp = (stamp ^ value) * 0x9E3779B97F4A7C15u;
+        stamp ^= stamp >> 32;
+    };
+    const auto add = [&mix](const osg::BufferData* data, unsigned int size)
+    {
+        mix(reinterpret_cast<std::uintptr_t>(data));
+        mix(std::uint64_t(data->getModifiedCount()) << 32 | size);
+    };
+    if (const osg::Array* vertices = geometry->getVertexArray())
+        add(vertices, vertices->getNumElements());
+    for (const osg::ref_ptr<osg::PrimitiveSet>& set : geometry->getPrimitiveSetList())
+        add(set.get(), set->getNumIndices());
+    return stamp;
+}
+
 } // namespace osgLabels

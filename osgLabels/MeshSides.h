@@ -5,6 +5,8 @@
 
 #include <osg/Drawable>
 
+#include <cstdint>
+
 namespace osgLabels
 {
 
@@ -20,5 +22,8 @@ enum class MeshSides
 /// rounding, are one. Closed is a
 /// mesh whose edges all have a partner that runs the other way. Points and lines are open.
 OSGLABELS_EXPORT MeshSides sidesOf(const osg::Drawable& drawable);
+
+/// Another number when vertices or primitives of a Geometry are exchanged or dirtied; 0 of others.
+OSGLABELS_EXPORT std::uint64_t stampOf(const osg::Drawable& drawable);
 
 } // namespace osgLabels

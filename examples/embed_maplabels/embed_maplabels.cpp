@@ -11,15 +11,12 @@
 #include <osgViewer/Viewer>
 #include <osgViewer/ViewerEventHandlers>
 
-#include <cstdio>
 #include <iostream>
 
 namespace
 {
 
-using osgLabels::LabelScene;
-using osgLabels::MapLabel;
-using osgLabels::MapLabels;
+using namespace osgLabels;
 
 void add(osg::Group& parent, const std::string& name, osg::Shape* shape, const osg::Vec4& color)
 {
@@ -39,16 +36,12 @@ osg::ref_ptr<osg::Group> makeTown()
     {
         const osg::Vec3 at(float(i % 5) * 18.0f - 36.0f, float(i / 5) * 18.0f - 36.0f, 0.0f);
         const float height = 4.0f + float(i * 7 % 11);
-        const std::string name = "house " + std::to_string(i + 1);
-        add(*town, name, new osg::Box(at + osg::Vec3(0, 0, 0.5f * height), 9, 8, height),
-            {0.6f + 0.01f * float(i), 0.55f, 0.5f - 0.01f * float(i), 1});
+        const osg::Vec3 middle = at + osg::Vec3(0, 0, 0.5f * height);
+        const std::string name = "House " + std::to_string(i + 1);
+        add(*town, name, new osg::Box(middle, 9, 8, height), {0.7f, 0.55f, 0.4f, 1});
         add(*town, "tree", new osg::Sphere(at + osg::Vec3(8, 5, 2.5f), 2.2f),
-            {0.25f, 0.5f, 0.2f, 1});
-        labels.push_back({at + osg::Vec3(0, 0, 0.5f * height),
-                          "House " + std::to_string(i + 1),
-                          double(height),
-                          {},
-                          name});
+            {0.2f, 0.5f, 0.2f, 1});
+        labels.push_back({middle, name, height, {}, name});
     }
     town->addChild(new MapLabels(labels));
     return town;
@@ -73,20 +66,17 @@ osg::ref_ptr<osg::Node> makeBus()
 struct Asker : osgGA::GUIEventHandler
 {
     explicit Asker(LabelScene& scene) : _scene(&scene) {}
-
     bool handle(const osgGA::GUIEventAdapter& event, osgGA::GUIActionAdapter& viewer) override
     {
-        if (event.getEventType() == osgGA::GUIEventAdapter::PUSH &&
-            event.getButton() == osgGA::GUIEventAdapter::LEFT_MOUSE_BUTTON)
+        if (event.getEventType() == event.PUSH && event.getButton() == event.LEFT_MOUSE_BUTTON)
         {
             _scene->pick(event.getXnormalized(), event.getYnormalized());
-            viewer.requestRedraw();
+            viewer.requestRedraw(); // It is answered by the next picture.
         }
         if (const auto picked = _scene->takePicked(); picked && picked->identifier)
-            std::printf("%s\n", picked->text.c_str());
+            std::cout << picked->text << std::endl;
         return false;
     }
-
     const osg::ref_ptr<LabelScene> _scene;
 };
 
@@ -96,13 +86,13 @@ int main(int argc, char** argv)
 {
     osg::ArgumentParser arguments(&argc, argv);
     osg::ApplicationUsage& usage = *arguments.getApplicationUsage();
-    usage.addCommandLineOption("-s <name=value>", "A setting of .labels, as mapaction=fade");
     usage.addCommandLineOption("-h or --help", "This");
+    usage.addCommandLineOption("-s <name=value>", "A setting of .labels, as mapaction=fade");
     osgViewer::Viewer viewer(arguments); // Takes -e, --window and others.
     if (arguments.read("-h") || arguments.read("--help"))
         return usage.write(std::cout), 0;
-    osgLabels::LabelSettings settings;
-    settings.surface = osgLabels::SurfaceLabels::Off;
+    LabelSettings settings;
+    settings.surface = SurfaceLabels::Off;
     settings.mapClass = "tree:fade";
     std::string setting, error;
     while (arguments.read("-s", setting))
@@ -110,7 +100,7 @@ int main(int argc, char** argv)
         const std::size_t equals = setting.find('=');
         const std::string value = equals < setting.size() ? setting.substr(equals + 1) : "";
         if (!setLabelOption(settings, setting.substr(0, equals), value, error))
-            return std::fprintf(stderr, "embed_maplabels: %s\n", error.c_str()), 2;
+            return std::cerr << "embed_maplabels: " << error << std::endl, 2;
     }
     arguments.reportRemainingOptionsAsUnrecognized();
     if (arguments.errors())
@@ -119,10 +109,9 @@ int main(int argc, char** argv)
     scene->setSettings(settings);
     scene->addChild(makeTown());
     scene->addChild(makeBus());
+    viewer.setCameraManipulator(new osgGA::TrackballManipulator);
+    viewer.getCameraManipulator()->setHomePosition({-40, -75, 40}, {0, 0, 0}, {0, 0, 1});
     viewer.setSceneData(scene);
-    osg::ref_ptr<osgGA::TrackballManipulator> trackball = new osgGA::TrackballManipulator;
-    trackball->setHomePosition({-40, -75, 40}, {0, 0, 0}, {0, 0, 1});
-    viewer.setCameraManipulator(trackball);
     viewer.addEventHandler(new Asker(*scene));
     viewer.addEventHandler(new osgViewer::HelpHandler); // h shows the keys for labels, too.
     return viewer.run();

@@ -66,7 +66,7 @@ void main()
     else // where a pixel is covered in part
         osgLabels_put(color, ink, 4.0 * cover.x * (1.0 - cover.x));
 #endif
-    float opacity = osgLabels_anchor.w * (action == osgLabels_Fade ? osgLabels_fade : 1.0);
+    float opacity = action == osgLabels_Fade ? osgLabels_fade : 1.0;
     osgmr_out0 = color * opacity;
     if (osgmr_out0.a == 0.0)
         discard;

@@ -66,6 +66,25 @@ TEST(FeatureTree, partsOfOneNameAreOneFeature)
     EXPECT_TRUE(isIn(tree.getNumber(between), tree.getRange(house)));
     EXPECT_TRUE(isIn(tree.getNumber(inner), tree.getRange(clock)));
     EXPECT_FALSE(isIn(tree.getNumber(inner), tree.getRange(house)));
+    EXPECT_TRUE(isIn(tree.getNumber(inner), tree.getRange(tower))) << "in whichever it lies";
+    EXPECT_NE(tree.getNumber(inner), tree.getNumber(b));
+}
+
+TEST(FeatureTree, aNameInsideOfItselfAndOfOthersHasOneRange)
+{
+    FeatureTree tree;
+    const auto tower = tree.add(FeatureTree::Scene, 1, "tower");
+    const auto house = tree.add(tower, 2, "house");
+    const auto again = tree.add(house, 3, "tower");
+    const auto clock = tree.add(again, 4, "clock");
+    const auto range = tree.getRange(tree.use("tower"));
+    tree.use("house");
+    tree.use("clock");
+    for (const auto part : {tower, house, again, clock})
+        EXPECT_TRUE(isIn(tree.getNumber(part), tree.getRange(tree.use("tower"))));
+    EXPECT_LE(range.first, range.last);
+    EXPECT_EQ(tree.getNumber(tower), tree.getNumber(again));
+    EXPECT_FALSE(isIn(tree.getNumber(tower), tree.getRange(tree.use("house"))));
 }
 
 TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
