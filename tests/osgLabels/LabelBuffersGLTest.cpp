@@ -188,7 +188,9 @@ TEST_P(LabelBuffersGLTest, sumsOfAdvancesReadBackForEachLength)
                 {
                     sum += advanceOf(read.codes[i]);
                     if ((i + 1) % 16 == 0 || i + 1 == length)
+                    {
                         ASSERT_EQ(read.sums[i / 16 + 1], sum) << length << ' ' << i;
+                    }
                 }
             }
         });

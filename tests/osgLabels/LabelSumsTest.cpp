@@ -36,7 +36,9 @@ template <typename F> void expectSums(const TableMirror& mirror, std::uint32_t i
     {
         sum += double(advance(codes[i]));
         if ((i + 1) % 16 == 0 || i + 1 == codes.size())
+        {
             ASSERT_EQ(sums[i / 16], float(sum)) << "identifier " << id << ", letter " << i;
+        }
     }
 }
 
