@@ -76,6 +76,9 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
     }
     _glyphs = std::make_shared<GlyphSet>(
         face, settings.proportional ? Spacing::Proportional : Spacing::Cells, warn);
+    if (settings.proportional)
+        table->setAdvances([glyphs = _glyphs](std::uint32_t code)
+                           { return glyphs->getGlyph(code)->advance; });
     _atlas = new GlyphAtlas(_glyphs, widestOutline(settings));
     _atlas->setLegibleSize(settings.readable);
     const auto encodeText = [this](const std::string& text) { return encode(text); };

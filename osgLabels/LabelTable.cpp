@@ -42,6 +42,12 @@ void LabelTable::setMessage(Message message)
     _message = std::move(message);
 }
 
+void LabelTable::setAdvances(AdvanceOf advanceOf)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _texts.setAdvances(std::move(advanceOf));
+}
+
 template <typename F> void LabelTable::forEachReader(F f)
 {
     for (std::size_t i = 0; i < _readers.size();)
@@ -150,7 +156,7 @@ bool LabelTable::makeRoom(std::size_t length)
         repack(_texts.getBits(), _texts.getShift());
     while (!_texts.fits(length))
     {
-        if ((_texts.getEndCodes() + 2 * MaxLength) * _texts.getBits() > TextStore::CapacityBits)
+        if ((_texts.getEndCodes() + 4 * MaxLength) * _texts.getBits() > TextStore::CapacityBits)
             return false;
         repack(_texts.getBits(), _texts.getShift() + 1);
     }

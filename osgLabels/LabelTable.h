@@ -51,10 +51,18 @@ public:
     static constexpr std::uint32_t MaxIdentifier = 0x7fffffffu;
     static constexpr std::size_t MaxLength = TextStore::MaxLength;
 
+    using AdvanceOf = TextStore::AdvanceOf;
+
     LabelTable();
     ~LabelTable();
     LabelTable(const LabelTable&) = delete;
     LabelTable& operator=(const LabelTable&) = delete;
+
+    /// For texts in proportional fonts, before the first one: how far each code reaches, in em. The
+    /// width of a text and sums of its advances are then stored with it, as TextStore tells: about
+    /// 4 bytes for each 16 codes. `advanceOf` is called while the table is locked, from the thread
+    /// that sets, and must not use the table.
+    void setAdvances(AdvanceOf advanceOf);
 
     /// Gives an identifier a text; an empty one is none. Longer texts than MaxLength are cut, which
     /// is said once. False, said once too, for an identifier out of range, a code over 2^20 - 1,

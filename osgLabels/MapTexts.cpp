@@ -14,6 +14,9 @@ MapTexts::MapTexts(std::shared_ptr<GlyphSet> glyphs, StyleOf styleOf, MapFeature
 {
     _table->setMessage([](const std::string& line)
                        { OSG_WARN << "osgLabels::MapLabels: " << line << std::endl; });
+    if (_glyphs->getSpacing() == Spacing::Proportional)
+        _table->setAdvances([set = _glyphs](std::uint32_t code)
+                            { return set->getGlyph(code)->advance; });
 }
 
 float MapTexts::widthOf(const LabelTable::Codes& codes) const

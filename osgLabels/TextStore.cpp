@@ -4,6 +4,7 @@
 #include <osgLabels/PackedBits.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace osgLabels
 {
@@ -32,9 +33,19 @@ unsigned int TextStore::headOf(std::size_t length) const
     return length < Escape ? 0 : (LengthBits + _bits - 1) / _bits;
 }
 
+std::size_t TextStore::sumsOf(std::size_t length) const
+{
+    return _advanceOf ? (length + SumStep - 1) / SumStep : 0;
+}
+
+std::size_t TextStore::spaceOf(std::size_t length) const
+{
+    return headOf(length) + length + (32 * sumsOf(length) + _bits - 1) / _bits;
+}
+
 std::uint32_t TextStore::unitsOf(std::size_t length) const
 {
-    const std::size_t codes = length + headOf(length);
+    const std::size_t codes = spaceOf(length);
     return static_cast<std::uint32_t>((codes + (std::size_t(1) << _shift) - 1) >> _shift);
 }
 
@@ -56,7 +67,7 @@ TextStore::Row TextStore::write(std::uint32_t offset, const std::uint32_t* codes
     const bool isLong = length >= Escape;
     const Row row = offset << 6 | (isLong ? Escape : static_cast<Row>(length));
     std::uint64_t at = bitOf(row);
-    const std::uint64_t end = at + std::uint64_t(headOf(length) + length) * _bits;
+    const std::uint64_t end = at + std::uint64_t(spaceOf(length)) * _bits;
     const auto size = static_cast<std::size_t>((end + 31) / 32);
     if (size > to.size())
     {
@@ -70,6 +81,18 @@ TextStore::Row TextStore::write(std::uint32_t offset, const std::uint32_t* codes
     at += std::uint64_t(headOf(length)) * _bits;
     for (std::size_t i = 0; i < length; ++i, at += _bits)
         writeBits(to.data(), at, _bits, codes[i]);
+    double sum = 0.0;
+    for (std::size_t i = 0; _advanceOf && i < length; ++i)
+    {
+        sum += double(_advanceOf(codes[i]));
+        if ((i + 1) % SumStep && i + 1 < length)
+            continue;
+        const auto rounded = static_cast<float>(sum);
+        std::uint32_t word = 0;
+        std::memcpy(&word, &rounded, sizeof(word));
+        writeBits(to.data(), at, 32, word);
+        at += 32;
+    }
     return row;
 }
 
@@ -96,7 +119,7 @@ TextStore::Row TextStore::add(const std::uint32_t* codes, std::size_t length,
         _end += size;
     const Row row = write(offset, codes, length, _words);
     const std::uint64_t bit = bitOf(row);
-    const std::uint64_t codesWritten = length + headOf(length);
+    const std::uint64_t codesWritten = spaceOf(length);
     written = {static_cast<std::size_t>(bit / 32),
                static_cast<std::size_t>((bit + codesWritten * _bits + 31) / 32)};
     insert({row, 1, hashOfCodes});
@@ -161,6 +184,7 @@ std::vector<std::pair<TextStore::Row, TextStore::Row>> TextStore::repack(unsigne
     std::vector<std::pair<Row, Row>> moves;
     moves.reserve(texts.size());
     TextStore packed;
+    packed._advanceOf = _advanceOf;
     packed._bits = bits;
     packed._shift = shift;
     packed._words.reserve(_words.size() / _bits * bits + 1);

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,9 @@ namespace osgLabels
 /// are its offset in units of 2^getShift() codes, the lower 6 its length; 63 stands for a text of
 /// 63 codes and more, which starts with its length less one in LengthBits bits, padded to whole
 /// codes. Row 0 is no text.
+///
+/// With advances given, behind a text's codes stand sums of them, floats of 32 bits each: of the
+/// first 16 codes, of the first 32, and so on; the last one is of all codes.
 class OSGLABELS_EXPORT TextStore
 {
 public:
@@ -28,6 +32,9 @@ public:
     static constexpr unsigned int MaxBits = 20; ///< Of a code.
     static constexpr std::uint32_t Escape = 63; ///< In the length bits of a row.
     static constexpr unsigned int LengthBits = 10;
+    static constexpr std::size_t SumStep = 16; ///< Codes from one sum to the next.
+
+    using AdvanceOf = std::function<float(std::uint32_t code)>;
 
     /// Units of a text's space.
     struct Block
@@ -39,6 +46,9 @@ public:
     {
         std::size_t begin = 0, end = 0;
     };
+
+    /// How far a code reaches; there must be no text yet. Codes of equal value always get the same.
+    void setAdvances(AdvanceOf advanceOf) { _advanceOf = std::move(advanceOf); }
 
     static std::uint32_t hash(const std::uint32_t* codes, std::size_t length);
 
@@ -80,6 +90,8 @@ private:
     };
 
     unsigned int headOf(std::size_t length) const;
+    std::size_t sumsOf(std::size_t length) const;
+    std::size_t spaceOf(std::size_t length) const; ///< Codes with head and sums.
     std::uint32_t unitsOf(std::size_t length) const;
     std::uint64_t bitOf(Row row) const;
     Row write(std::uint32_t offset, const std::uint32_t* codes, std::size_t length,
@@ -92,6 +104,7 @@ private:
     void erase(std::size_t slot);
     void growEntries();
 
+    AdvanceOf _advanceOf;
     unsigned int _bits = 1;
     unsigned int _shift = 0;
     std::uint32_t _end = 0; ///< First unit that was never used.

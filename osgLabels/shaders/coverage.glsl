@@ -86,6 +86,27 @@ osgLabels_Cell osgLabels_neighbour(osgLabels_Text text, osgLabels_Cell cell, int
                           width);
 }
 
+#ifdef OSGLABELS_SUMS
+float osgLabels_width(osgLabels_Text text)
+{
+    return osgLabels_sumOf(text, (text.length + 15) >> 4);
+}
+
+// The first of those 16 letters among which a place lies: from there it is near.
+osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
+{
+    int low = 0, high = max(text.length - 1, 0) >> 4;
+    while (low < high)
+    {
+        int middle = (low + high + 1) >> 1;
+        bool isBehind = x >= osgLabels_sumOf(text, middle);
+        low = isBehind ? middle : low;
+        high = isBehind ? high : middle - 1;
+    }
+    return osgLabels_Cell(16 * low, osgLabels_sumOf(text, low),
+                          osgLabels_advanceAt(text, 16 * low));
+}
+#else
 float osgLabels_width(osgLabels_Text text)
 {
     float width = 0.0;
@@ -93,7 +114,18 @@ float osgLabels_width(osgLabels_Text text)
         width += osgLabels_advanceAt(text, i);
     return width;
 }
+
+osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
+{
+    return osgLabels_Cell(-1, 0.0, 0.0);
+}
+#endif
 #else
+osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
+{
+    return osgLabels_Cell(-1, 0.0, 0.0);
+}
+
 osgLabels_Cell osgLabels_cellAt(osgLabels_Text text, osgLabels_Cell cell, float x)
 {
     float index = floor(x * (1.0 / osgLabels_letters.x));
@@ -252,7 +284,7 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     // Two look-ups a turn: of two slices or quarters, or of a letter and its nearer neighbour.
     float turns = isLong ? clamp(ceil(0.5 * slices - 0.2), 1.0, osgLabels_MostTurns)
                          : isPair ? 1.0 : 2.0;
-    osgLabels_Cell cell = osgLabels_cellAt(text, osgLabels_Cell(-1, 0.0, 0.0), place.x);
+    osgLabels_Cell cell = osgLabels_cellAt(text, osgLabels_near(text, place.x), place.x);
     osgLabels_Cell neighbour =
         osgLabels_neighbour(text, cell, place.x - cell.left < 0.5 * cell.width ? -1 : 1);
     float ink = 0.0, weight = 0.0, i = 0.0;

@@ -78,6 +78,21 @@ uint osgLabels_code(osgLabels_Text text, int i)
     return osgLabels_bits((text.offset + uint(i)) * osgLabels_layout.x, osgLabels_layout.x);
 }
 
+// Of a text in a proportional font, the advances of its first 16 * count letters, or of all where
+// it has fewer: em. 16 * (count - 1) < length.
+#define OSGLABELS_SUMS
+float osgLabels_sumOf(osgLabels_Text text, int count)
+{
+    if (count <= 0)
+        return 0.0;
+    uint at = (text.offset + uint(text.length)) * osgLabels_layout.x + 32u * uint(count - 1);
+    uint shift = at & 31u;
+    uint bits = osgLabels_texel(osgLabels_texts, at >> 5u).r >> shift;
+    if (shift > 0u)
+        bits |= osgLabels_texel(osgLabels_texts, (at >> 5u) + 1u).r << (32u - shift);
+    return uintBitsToFloat(bits);
+}
+
 uint osgLabels_styleOf(uint id)
 {
     if (osgLabels_styleCount == 0u)

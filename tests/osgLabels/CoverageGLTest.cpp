@@ -172,6 +172,47 @@ TEST(CoverageGLTest, proportionalLettersStandWhereTheirAdvancesPutThem)
     }
 }
 
+TEST(CoverageGLTest, lettersFoundBySumsAreThoseFoundFromTheStart)
+{
+    support::HeadlessViewer viewer;
+    OSGKITS_NEED_GL(viewer);
+    std::string error;
+    const std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    if (!FontFace::open(font, error))
+        GTEST_SKIP() << "NOT TESTED: " << error;
+    const auto glyphs = makeGlyphs(font, Spacing::Proportional);
+    const CoveragePage page(glyphs);
+    const osg::ref_ptr<GlyphAtlas> atlas = new GlyphAtlas(glyphs);
+    atlas->update();
+    const std::string sums = "#define OSGLABELS_SUMS\n"
+                             "float osgLabels_advanceAt(osgLabels_Text text, int index);\n"
+                             "float osgLabels_sumOf(osgLabels_Text text, int count)\n"
+                             "{\n"
+                             "    float sum = 0.0;\n"
+                             "    for (int i = 0; i < min(16 * count, text.length); ++i)\n"
+                             "        sum += osgLabels_advanceAt(text, i);\n"
+                             "    return sum;\n"
+                             "}\n";
+    const std::string shade = "float shade(osgLabels_Text text, vec2 place, mat2 footprint)\n"
+                              "{ return osgLabels_coverage(text, place, footprint) +\n"
+                              "         osgLabels_width(text); }\n";
+    for (const double em : {0.11, 12.0, 60.0}) // 64 pixels at 0.11: all of the 1,024 letters
+    {
+        const auto draw = [&](const std::string& begin)
+        {
+            const auto node = page.makeNode(
+                makeView(27.0, 1.0, em),
+                begin + atlas->getDefines() + osgLabels::shaders::coverage_glsl + shade, 1);
+            atlas->apply(*node->getOrCreateStateSet(), 0);
+            return viewer.renderFloat(node, {}, 64, 64);
+        };
+        const auto scanned = draw(""), found = draw(sums);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) // rounding: the sums are of several hundred em
+                ASSERT_NEAR(getPixel(*found, x, y), getPixel(*scanned, x, y), 1e-3) << em;
+    }
+}
+
 TEST(CoverageGLTest, anEighthOfAPixelChangesCoverageAsItShould)
 {
     support::HeadlessViewer viewer;

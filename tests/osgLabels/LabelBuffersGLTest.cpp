@@ -12,6 +12,7 @@
 #include <osg/GLExtensions>
 #include <osg/Program>
 
+#include <cstring>
 #include <functional>
 #include <random>
 
@@ -22,7 +23,7 @@ using Codes = LabelTable::Codes;
 namespace
 {
 
-constexpr int Width = 1026; ///< Length, 1024 codes, style.
+constexpr int Width = 1026 + 65; ///< Length, 1024 codes, style, 65 sums.
 
 const char vertexShader[] = R"(#version 330 compatibility
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
@@ -35,6 +36,13 @@ void main()
 {
     osgLabels_Text text = osgLabels_textOf(id);
     int i = int(gl_FragCoord.x) - 1;
+    if (i > 1024)
+    {
+        int count = i - 1025;
+        bool isOne = 16 * (count - 1) < text.length;
+        result = isOne ? floatBitsToUint(osgLabels_sumOf(text, count)) : ~0u;
+        return;
+    }
     result = i < 0 ? uint(text.length) : i == 1024 ? osgLabels_styleOf(id)
            : i < text.length ? osgLabels_code(text, i) : ~0u;
 }
@@ -45,6 +53,7 @@ struct Read
 {
     Codes codes;
     std::uint32_t style = 0;
+    std::vector<float> sums = {}; ///< From that of no code on.
 };
 
 /// Reads a table through GLSL, in the draw thread, when drawn.
@@ -116,8 +125,10 @@ private:
         state.popStateSet();
         state.popStateSet();
         const std::size_t length = std::min<std::size_t>(pixels[0], 1024);
+        std::vector<float> sums((length + 15) / 16 + 1);
+        std::memcpy(sums.data(), &pixels[1026], sums.size() * sizeof(float));
         return {Codes(pixels.begin() + 1, pixels.begin() + 1 + static_cast<std::ptrdiff_t>(length)),
-                pixels[Width - 1]};
+                pixels[1025], std::move(sums)};
     }
 
     LabelBuffers& _buffers;
@@ -156,6 +167,34 @@ protected:
 };
 
 } // namespace
+
+TEST_P(LabelBuffersGLTest, sumsOfAdvancesReadBackForEachLength)
+{
+    OSGKITS_NEED_GL(viewer);
+    const auto advanceOf = [](std::uint32_t code) { return 0.25f + 0.0625f * float(code); };
+    table->setAdvances(advanceOf);
+    check(
+        [&](const TableReader::Question& ask)
+        {
+            for (std::size_t length = 1; length <= 1024; length += length < 70 ? 1 : 53)
+                table->setCodes(std::uint32_t(length), sequence(length, 7, 63));
+            for (std::size_t length = 1; length <= 1024; length += length < 70 ? 1 : 53)
+            {
+                const Read read = ask(std::uint32_t(length));
+                ASSERT_EQ(read.codes, sequence(length, 7, 63));
+                float sum = 0.0f; // exact for such advances
+                EXPECT_EQ(read.sums[0], 0.0f);
+                for (std::size_t i = 0; i < length; ++i)
+                {
+                    sum += advanceOf(read.codes[i]);
+                    if ((i + 1) % 16 == 0 || i + 1 == length)
+                    {
+                        ASSERT_EQ(read.sums[i / 16 + 1], sum) << length << ' ' << i;
+                    }
+                }
+            }
+        });
+}
 
 TEST_P(LabelBuffersGLTest, eachCharacterReadsBack)
 {

@@ -79,6 +79,22 @@ TableMirror::Codes TableMirror::codesOf(std::uint32_t identifier) const
     return codes;
 }
 
+std::vector<float> TableMirror::sumsOf(std::uint32_t identifier) const
+{
+    const std::uint32_t row = find(identifier).second;
+    const std::size_t length = codesOf(identifier).size();
+    const std::size_t head = length < 63 ? 0 : (10 + layout.bits - 1) / layout.bits;
+    std::uint64_t at = ((std::uint64_t(row >> 6) << layout.shift) + head + length) * layout.bits;
+    std::vector<float> sums((length + 15) / 16);
+    for (float& sum : sums)
+    {
+        const std::uint32_t word = bitsAt(at, 32);
+        std::memcpy(&sum, &word, sizeof(sum));
+        at += 32;
+    }
+    return sums;
+}
+
 std::uint32_t TableMirror::styleOf(std::uint32_t identifier) const
 {
     const std::size_t slot = find(identifier).first;

@@ -24,6 +24,8 @@ public:
     }
 
     Codes codesOf(std::uint32_t identifier) const;
+    /// Of the first 16 codes, of the first 32, …, of all; only with advances.
+    std::vector<float> sumsOf(std::uint32_t identifier) const;
     std::uint32_t styleOf(std::uint32_t identifier) const;
     bool isSparse() const { return layout.probes != 0; }
 
