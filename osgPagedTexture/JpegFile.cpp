@@ -143,6 +143,8 @@ DecodedImage readJpegBytes(const std::string& bytes, const std::string& name,
     jpeg_decompress_struct& jpeg = decoder.info();
     checkSize(jpeg, bytes.size(), name, settings.limits);
 
+    // Before the scans, as a progressive file may bring another EXIF segment between them.
+    const int orientation = exifOrientation(decoder.getExif());
     const int dctReduction = std::clamp(settings.reduction, 0, 3);
     jpeg.scale_num = 8u >> dctReduction;
     jpeg.scale_denom = 8;
@@ -153,7 +155,6 @@ DecodedImage readJpegBytes(const std::string& bytes, const std::string& name,
     {
         throw damaged(name, decoder.getError());
     }
-    const int orientation = exifOrientation(decoder.getExif());
     const int fullWidth = static_cast<int>(jpeg.image_width);
     const int fullHeight = static_cast<int>(jpeg.image_height);
     const int width = levelSide(fullWidth, settings.reduction);
