@@ -17,6 +17,8 @@ packages=(
     openscenegraph libgl1-mesa-dri libegl-mesa0 libosmesa6 inventor-data fonts-dejavu-core gnuplot-nox xvfb xauth
     # tests: a second GLSL compiler, real projects of ShaderDesigner
     glslang-tools meshlab
+    # sweeps: other encoders of texture blocks
+    libstb-dev libsquish-dev
 )
 
 missing=()

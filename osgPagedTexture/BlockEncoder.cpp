@@ -12,88 +12,110 @@ namespace osgPagedTexture
 namespace
 {
 
-struct Rgba
-{
-    std::uint8_t c[4];
-};
-
-Rgba texelAt(const Pixels& pixels, int x, int y)
+/// RGBA, red in the lowest byte.
+std::uint32_t texelAt(const Pixels& pixels, int x, int y)
 {
     const std::uint8_t* p = pixels.row(y) + std::size_t(x) * pixels.channels;
+    const auto pack = [](std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32_t a)
+    { return r | g << 8 | b << 16 | a << 24; };
     switch (pixels.channels)
     {
     case 1:
-        return {{p[0], p[0], p[0], 255}};
+        return pack(p[0], p[0], p[0], 255);
     case 2:
-        return {{p[0], p[0], p[0], p[1]}};
+        return pack(p[0], p[0], p[0], p[1]);
     case 3:
-        return {{p[0], p[1], p[2], 255}};
+        return pack(p[0], p[1], p[2], 255);
     default:
-        return {{p[0], p[1], p[2], p[3]}};
+        return pack(p[0], p[1], p[2], p[3]);
     }
 }
 
-/// Sixteen RGBA for each block of one row of blocks.
-void gather(const Pixels& pixels, int blockRow, std::vector<std::uint8_t>& texels)
+/// The texels of one row of blocks, as the kernels take them.
+class BlockRow
 {
-    const int blocks = (pixels.width + 3) / 4;
-    texels.resize(std::size_t(blocks) * 64);
-    for (int y = 0; y < 4; ++y)
+public:
+    BlockRow(const Pixels& pixels, int lanes)
+        : _pixels(pixels), _blocks((pixels.width + 3) / 4), _lanes(lanes),
+          _words(std::size_t((_blocks + lanes - 1) / lanes) * lanes * 16)
     {
-        const int row = std::min(4 * blockRow + y, pixels.height - 1);
-        const std::uint8_t* source = pixels.row(row);
-        std::uint8_t* line = texels.data() + 16 * y;
-        const int whole = pixels.width / 4;
-        for (int block = 0; block < whole; ++block, line += 64)
+    }
+
+    const std::uint32_t* data() const { return _words.data(); }
+
+    void gather(int row)
+    {
+        for (int y = 0; y < 4; ++y)
+            gatherLine(std::min(4 * row + y, _pixels.height - 1), y);
+    }
+
+    /// Texels that nobody sees take the mean colour of the others, so that none is fitted to them.
+    void colorUnseen()
+    {
+        for (int block = 0; block < _blocks; ++block)
         {
-            if (pixels.channels == 4)
-                std::memcpy(line, source + 16 * std::size_t(block), 16);
-            else if (pixels.channels == 3)
-                for (int x = 0; x < 4; ++x)
+            std::uint32_t seen = 0, sum[3] = {};
+            for (int k = 0; k < 16; ++k)
+                if (const std::uint32_t word = at(block, k); word >> 24)
                 {
-                    const std::uint8_t* p = source + 3 * (4 * std::size_t(block) + x);
-                    const std::uint8_t texel[4] = {p[0], p[1], p[2], 255};
-                    std::memcpy(line + 4 * x, texel, 4);
+                    ++seen;
+                    for (int c = 0; c < 3; ++c)
+                        sum[c] += word >> (8 * c) & 255;
                 }
-            else
-                for (int x = 0; x < 4; ++x)
-                    std::memcpy(line + 4 * x, texelAt(pixels, 4 * block + x, row).c, 4);
+            for (int k = 0; seen && k < 16; ++k)
+                if (!(at(block, k) >> 24))
+                {
+                    at(block, k) = 0;
+                    for (int c = 0; c < 3; ++c)
+                        at(block, k) |= (sum[c] + seen / 2) / seen << (8 * c);
+                }
         }
-        if (whole < blocks)
-            for (int x = 0; x < 4; ++x)
-                std::memcpy(line + 4 * x,
-                            texelAt(pixels, std::min(4 * whole + x, pixels.width - 1), row).c, 4);
     }
-}
 
-/// Texels that nobody sees take the mean colour of the others, so that no colour is fitted to them.
-void colorUnseen(std::vector<std::uint8_t>& texels)
-{
-    for (std::size_t at = 0; at < texels.size(); at += 64)
+private:
+    std::uint32_t& at(int block, int k)
     {
-        std::uint8_t* block = texels.data() + at;
-        int seen = 0, sum[3] = {};
-        for (int k = 0; k < 16; ++k)
-            if (block[4 * k + 3])
-            {
-                ++seen;
-                for (int c = 0; c < 3; ++c)
-                    sum[c] += block[4 * k + c];
-            }
-        for (int k = 0; seen && k < 16; ++k)
-            if (!block[4 * k + 3])
-                for (int c = 0; c < 3; ++c)
-                    block[4 * k + c] = static_cast<std::uint8_t>((sum[c] + seen / 2) / seen);
+        return _words[(std::size_t(block / _lanes) * 16 + k) * _lanes + block % _lanes];
     }
-}
 
-void pickChannel(const std::vector<std::uint8_t>& texels, int channel,
-                 std::vector<std::uint8_t>& values)
-{
-    values.resize(texels.size() / 4);
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = texels[4 * i + channel];
-}
+    void gatherLine(int row, int y)
+    {
+        const int whole = _pixels.width / 4;
+        const std::uint8_t* source = _pixels.row(row);
+        std::uint32_t* line = _words.data() + std::size_t(4 * y) * _lanes;
+        // Four bytes are read for three: not at the very end of the picture.
+        const bool inside = row + 1 < _pixels.height;
+        for (int block = 0, lane = 0; block < whole; ++block)
+        {
+            for (int x = 0; x < 4; ++x)
+            {
+                std::uint32_t word = 0;
+                if (_pixels.channels == 4)
+                    std::memcpy(&word, source + 4 * (4 * std::size_t(block) + x), 4);
+                else if (_pixels.channels == 3 && inside)
+                {
+                    std::memcpy(&word, source + 3 * (4 * std::size_t(block) + x), 4);
+                    word |= 0xff000000u;
+                }
+                else
+                    word = texelAt(_pixels, 4 * block + x, row);
+                line[x * _lanes + lane] = word;
+            }
+            if (++lane == _lanes)
+            {
+                lane = 0;
+                line += 16 * _lanes;
+            }
+        }
+        for (int x = 0; whole < _blocks && x < 4; ++x)
+            at(whole, 4 * y + x) =
+                texelAt(_pixels, std::min(4 * whole + x, _pixels.width - 1), row);
+    }
+
+    const Pixels& _pixels;
+    int _blocks, _lanes;
+    std::vector<std::uint32_t> _words;
+};
 
 const BlockKernels& kernelsOf([[maybe_unused]] Instructions instructions)
 {
@@ -114,12 +136,12 @@ std::vector<std::uint8_t> toPlain(const Pixels& pixels, int channels)
     for (int y = 0; y < pixels.height; ++y)
         for (int x = 0; x < pixels.width; ++x, out += channels)
         {
-            const Rgba texel = texelAt(pixels, x, y);
-            std::memcpy(out, texel.c, channels);
+            const std::uint32_t word = texelAt(pixels, x, y);
+            const std::uint8_t texel[4] = {std::uint8_t(word), std::uint8_t(word >> 8),
+                                           std::uint8_t(word >> 16), std::uint8_t(word >> 24)};
+            std::copy(texel, texel + channels, out);
             if (channels == 2) // grey and alpha, or the first two of several
-                out[1] = pixels.channels == 1   ? 255
-                         : pixels.channels == 2 ? texel.c[3]
-                                                : texel.c[1];
+                out[1] = pixels.channels == 1 ? 255 : pixels.channels == 2 ? texel[3] : texel[1];
         }
     return bytes;
 }
@@ -153,17 +175,14 @@ std::vector<std::uint8_t> encodeBlocks(const Pixels& pixels, BlockFormat format,
     const int refinements = quality == EncodeQuality::Best ? -1 : static_cast<int>(quality);
     const int blocks = (pixels.width + 3) / 4, rows = (pixels.height + 3) / 4,
               bytes = unitBytes(format);
-    std::vector<std::uint8_t> encoded(levelBytes(format, pixels.width, pixels.height)), texels,
-        values;
-    const auto channel = [&](int index, std::uint8_t* out)
-    {
-        pickChannel(texels, index, values);
-        kernels.channel(values.data(), blocks, refinements, out, bytes);
-    };
+    std::vector<std::uint8_t> encoded(levelBytes(format, pixels.width, pixels.height));
+    BlockRow texels(pixels, kernels.lanes);
     for (int row = 0; row < rows; ++row)
     {
         std::uint8_t* out = encoded.data() + std::size_t(row) * blocks * bytes;
-        gather(pixels, row, texels);
+        const auto channel = [&](int index, std::uint8_t* to)
+        { kernels.channel(texels.data(), blocks, index, refinements, to, bytes); };
+        texels.gather(row);
         if (format == BlockFormat::BC4 || format == BlockFormat::BC5)
         {
             channel(0, out);
@@ -174,7 +193,7 @@ std::vector<std::uint8_t> encodeBlocks(const Pixels& pixels, BlockFormat format,
         if (format == BlockFormat::BC3)
             channel(3, out);
         if (format != BlockFormat::BC1 && pixels.hasAlpha())
-            colorUnseen(texels);
+            texels.colorUnseen();
         if (format == BlockFormat::BC7)
             kernels.mode6(texels.data(), blocks, refinements, out, bytes);
         else

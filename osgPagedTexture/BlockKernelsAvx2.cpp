@@ -10,6 +10,6 @@
 namespace osgPagedTexture
 {
 
-const BlockKernels avx2Kernels = {encodeColor, encodeChannel, encodeMode6};
+const BlockKernels avx2Kernels = {Lanes, encodeColor, encodeChannel, encodeMode6};
 
 } // namespace osgPagedTexture

@@ -10,6 +10,6 @@
 namespace osgPagedTexture
 {
 
-const BlockKernels avx512Kernels = {encodeColor, encodeChannel, encodeMode6};
+const BlockKernels avx512Kernels = {Lanes, encodeColor, encodeChannel, encodeMode6};
 
 } // namespace osgPagedTexture

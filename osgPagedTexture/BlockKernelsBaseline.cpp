@@ -10,6 +10,6 @@
 namespace osgPagedTexture
 {
 
-const BlockKernels baselineKernels = {encodeColor, encodeChannel, encodeMode6};
+const BlockKernels baselineKernels = {Lanes, encodeColor, encodeChannel, encodeMode6};
 
 } // namespace osgPagedTexture

@@ -117,22 +117,15 @@ template <int N> struct Texels
     Color<N> low, high, mean;
 };
 
-/// Lanes beyond `count` repeat the first block.
-template <int N> inline void load(const std::uint8_t* blocks, int count, Texels<N>& texels)
+/// Of one group of blocks, see BlockKernels.
+template <int N> inline void load(const std::uint32_t* group, Texels<N>& texels)
 {
-    alignas(64) std::uint32_t words[16][Lanes];
-    for (int lane = 0; lane < Lanes; ++lane)
-    {
-        const std::uint8_t* block = blocks + 64 * (lane < count ? lane : 0);
-        for (int k = 0; k < 16; ++k)
-            std::memcpy(&words[k][lane], block + 4 * k, 4);
-    }
     texels.low = uniform<N>(255.0f);
     texels.high = texels.mean = uniform<N>(0.0f);
     for (int k = 0; k < 16; ++k)
     {
         Ints word;
-        std::memcpy(&word, words[k], sizeof(word));
+        std::memcpy(&word, group + std::size_t(k) * Lanes, sizeof(word));
         for (int i = 0; i < N; ++i)
         {
             const Floats value = toFloats((word >> (8 * i)) & 255);

@@ -108,8 +108,8 @@ inline void writeChannel(int low, int high, const int* steps, bool fifths, std::
         out[2 + i] = std::uint8_t(codes >> (8 * i));
 }
 
-void encodeChannel(const std::uint8_t* blocks, int count, int refinements, std::uint8_t* out,
-                   int stride)
+void encodeChannel(const std::uint32_t* blocks, int count, int index, int refinements,
+                   std::uint8_t* out, int stride)
 {
     for (int block = 0; block < count; block += Lanes)
     {
@@ -117,8 +117,10 @@ void encodeChannel(const std::uint8_t* blocks, int count, int refinements, std::
         Floats values[16], low = all(255.0f), high = all(0.0f);
         for (int k = 0; k < 16; ++k)
         {
-            for (int lane = 0; lane < Lanes; ++lane)
-                values[k][lane] = blocks[16 * std::size_t(block + (lane < lanes ? lane : 0)) + k];
+            Ints word;
+            std::memcpy(&word, blocks + 16 * std::size_t(block) + std::size_t(k) * Lanes,
+                        sizeof(word));
+            values[k] = toFloats((word >> (8 * index)) & 255);
             low = lesser(low, values[k]);
             high = greater(high, values[k]);
         }

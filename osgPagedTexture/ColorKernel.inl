@@ -245,14 +245,14 @@ inline Ints packed(const Color<3>& grid)
     return toInts(grid.c[0]) << 11 | toInts(grid.c[1]) << 5 | toInts(grid.c[2]);
 }
 
-void encodeColor(const std::uint8_t* blocks, int count, int refinements, std::uint8_t* out,
+void encodeColor(const std::uint32_t* blocks, int count, int refinements, std::uint8_t* out,
                  int stride)
 {
     for (int block = 0; block < count; block += Lanes)
     {
         const int lanes = count - block < Lanes ? count - block : Lanes;
         Texels<3> texels;
-        load(blocks + 64 * std::size_t(block), lanes, texels);
+        load(blocks + 16 * std::size_t(block), texels);
         const Color<3> axis = principalAxis(texels);
         ColorFit fit = fitColor(texels, axis, refinements < 0 ? 2 : refinements);
         if (refinements < 0)

@@ -141,14 +141,14 @@ inline void writeMode6(const int* first, const int* second, const int* steps, st
         out[i] = std::uint8_t(bits.words[i / 8] >> (8 * (i % 8)));
 }
 
-void encodeMode6(const std::uint8_t* blocks, int count, int refinements, std::uint8_t* out,
+void encodeMode6(const std::uint32_t* blocks, int count, int refinements, std::uint8_t* out,
                  int stride)
 {
     for (int block = 0; block < count; block += Lanes)
     {
         const int lanes = count - block < Lanes ? count - block : Lanes;
         Texels<4> texels;
-        load(blocks + 64 * std::size_t(block), lanes, texels);
+        load(blocks + 16 * std::size_t(block), texels);
         const Mode6Fit fit = fitMode6(texels, refinements);
         for (int lane = 0; lane < lanes; ++lane)
         {
