@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgPagedTexture/Export.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace osgPagedTexture
+{
+
+/// 128 bits that stand for bytes (XXH3, the same on every machine). Not against forgery.
+struct ContentHash
+{
+    std::uint64_t high = 0;
+    std::uint64_t low = 0;
+
+    bool operator==(const ContentHash& other) const
+    {
+        return high == other.high && low == other.low;
+    }
+    bool operator!=(const ContentHash& other) const { return !(*this == other); }
+    bool operator<(const ContentHash& other) const
+    {
+        return high != other.high ? high < other.high : low < other.low;
+    }
+    /// 32 hexadecimal digits.
+    OSGPAGEDTEXTURE_EXPORT std::string text() const;
+};
+
+OSGPAGEDTEXTURE_EXPORT ContentHash hashBytes(const void* bytes, std::size_t count);
+
+inline ContentHash hashText(const std::string& text)
+{
+    return hashBytes(text.data(), text.size());
+}
+
+/// 64 bits of the same, with a seed.
+OSGPAGEDTEXTURE_EXPORT std::uint64_t checksum(const void* bytes, std::size_t count,
+                                              std::uint64_t seed = 0);
+
+} // namespace osgPagedTexture

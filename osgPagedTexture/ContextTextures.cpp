@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/ContextTextures.h>
+
+#include <osg/GLExtensions>
+
+namespace osgPagedTexture
+{
+
+ContextTextures::ContextTextures(unsigned int contextID)
+    : osg::GraphicsObjectManager("osgPagedTexture::ContextTextures", contextID)
+{
+}
+
+void ContextTextures::doom(std::vector<GLuint> textures, std::vector<GLuint> buffers)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _textures.insert(_textures.end(), textures.begin(), textures.end());
+    _buffers.insert(_buffers.end(), buffers.begin(), buffers.end());
+}
+
+void ContextTextures::flush()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_textures.empty())
+        glDeleteTextures(GLsizei(_textures.size()), _textures.data());
+    if (osg::GLExtensions* gl = osg::GLExtensions::Get(_contextID, true); !_buffers.empty() && gl)
+        gl->glDeleteBuffers(GLsizei(_buffers.size()), _buffers.data());
+    _textures.clear();
+    _buffers.clear();
+}
+
+void ContextTextures::deleteAllGLObjects()
+{
+    flush();
+    ++_generation;
+}
+
+void ContextTextures::discardAllGLObjects()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _textures.clear();
+    _buffers.clear();
+    ++_generation;
+}
+
+} // namespace osgPagedTexture

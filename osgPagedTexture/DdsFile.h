@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgPagedTexture/ContentHash.h>
+#include <osgPagedTexture/MipChain.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osgPagedTexture
+{
+
+/// The file of a chain: a DDS texture whose level 0 is the chain's finest, as other programs read
+/// it, and after its last level a checksum for each level. Rows lie as in memory: the first one is
+/// the bottom of the picture, as OpenGL takes it (programs that follow Direct3D show it upside
+/// down). What DDS has no place for stands in the reserved words of its header.
+///
+///     "DDS " | header | DX10 header (BC7 only) | finest level ... 1x1 | checksum of each level
+struct ChainFileLayout
+{
+    BlockFormat format = BlockFormat::RGBA8;
+    int width = 0; ///< Of level 0 of the texture.
+    int height = 0;
+    int firstLevel = 0;
+    ContentHash key;
+    std::uint64_t tableChecksum = 0; ///< Of the checksums of the levels.
+
+    int levels() const { return levelCount(width, height) - firstLevel; }
+    std::size_t headerBytes() const;
+    std::uint64_t fileBytes() const;
+    std::uint64_t levelOffset(int level) const;
+    std::uint64_t tableOffset() const { return levelOffset(firstLevel + levels()); }
+    std::string header() const;
+};
+
+/// More than any header.
+constexpr std::size_t MaxChainHeaderBytes = 148;
+
+/// The layout that the first bytes of a file say, or nothing where one bit of them is not as
+/// ChainFileLayout::header() writes it or the file has another length.
+std::optional<ChainFileLayout> parseChainHeader(const std::string& head, std::uint64_t fileBytes);
+
+/// A level's checksum, which also depends on the entry and the level that it belongs to.
+std::uint64_t levelChecksum(const ContentHash& key, int level,
+                            const std::vector<std::uint8_t>& bytes);
+
+/// The whole file.
+std::string writeChainFile(const ContentHash& key, const MipChain& chain);
+
+/// Reads the levels from `firstLevel` on out of `tail`, the file's bytes from
+/// layout.levelOffset(firstLevel) to its end. Nothing where a checksum fails.
+std::optional<MipChain> readChainTail(const ChainFileLayout& layout, int firstLevel,
+                                      const std::string& tail);
+
+} // namespace osgPagedTexture

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/ImageFile.h>
+
+#include <osgPagedTexture/FileBytes.h>
+#include <osgPagedTexture/JpegFile.h>
+#include <osgPagedTexture/OiioFile.h>
+
+namespace osgPagedTexture
+{
+
+ImageError::ImageError(Kind kind, const std::string& path, const std::string& causeAndRemedy)
+    : std::runtime_error("'" + path + "': " + causeAndRemedy), _kind(kind)
+{
+}
+
+ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool lookAtAlpha)
+{
+    // A JPEG's header lies within this but for giant profiles; then all of it is read.
+    constexpr std::size_t headBytes = 64 << 10;
+    const FileHead head = readFileHead(path, headBytes);
+    if (!isJpeg(head.bytes))
+    {
+        return readOiioInfo(path, head.fileBytes, limits, lookAtAlpha);
+    }
+    ImageInfo info;
+    if (!readJpegInfo(head.bytes, head.fileBytes, path, limits, info))
+    {
+        const std::string all = readFileBytes(path);
+        readJpegInfo(all, all.size(), path, limits, info);
+    }
+    return info;
+}
+
+DecodedImage readImageFile(const std::string& path, const ReadSettings& settings)
+{
+    const FileHead head = readFileHead(path, 2);
+    return isJpeg(head.bytes) ? readJpegBytes(readFileBytes(path), path, settings)
+                              : readOiioFile(path, head.fileBytes, settings);
+}
+
+} // namespace osgPagedTexture

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <csetjmp>
+#include <cstdio>
+#include <string>
+
+#include <jpeglib.h>
+
+namespace osgPagedTexture
+{
+
+/// libjpeg behind functions that return false on an error and keep count of its warnings. Its
+/// errors are jumps, so nothing with a destructor may live in the functions that call it.
+class JpegDecoder
+{
+public:
+    /// `bytes` must outlive it.
+    explicit JpegDecoder(const std::string& bytes);
+    ~JpegDecoder();
+    JpegDecoder(const JpegDecoder&) = delete;
+    JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+    bool readHeader();
+    bool start();
+    bool readRow(JSAMPROW row);
+    bool finish(); ///< Reads on to the end marker: data that nobody asked for are a warning too.
+
+    jpeg_decompress_struct& info() { return _info; }
+    bool isWarned() const { return _errors.base.num_warnings > 0; }
+    const char* getError() const { return _errors.error; }
+    const char* getWarning() const { return _errors.warning; } ///< The first one.
+    std::string getExif() const; ///< Data of the first APP1 segment that starts as EXIF does.
+
+private:
+    struct Errors
+    {
+        jpeg_error_mgr base; ///< First: libjpeg gives back a pointer to it.
+        std::jmp_buf jump;
+        char error[JMSG_LENGTH_MAX];
+        char warning[JMSG_LENGTH_MAX];
+    };
+    static void fail(j_common_ptr info);
+    static void note(j_common_ptr info, int level);
+    static void watch(j_common_ptr info);
+
+    const std::string& _bytes;
+    Errors _errors{};
+    jpeg_progress_mgr _progress{};
+    jpeg_decompress_struct _info{};
+};
+
+} // namespace osgPagedTexture
