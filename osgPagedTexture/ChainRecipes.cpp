@@ -12,7 +12,7 @@ BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compress
                       const ContextAbilities& abilities)
 {
     const bool isGrey = channels < 3;
-    const bool compresses = compression != Compression::None;
+    const bool compresses = false && compression != Compression::None;
     if (isNormalMap)
         return channels == 4 ? BlockFormat::RGBA8 : BlockFormat::RGB8;
     if (isGrey && compresses && abilities.rgtc)

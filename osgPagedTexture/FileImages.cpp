@@ -210,10 +210,10 @@ void FileImages::restore(osg::Image& image, const Found& found) const
     FileImages* const current = threadImages;
     threadImages = nullptr;
     osg::ref_ptr<const osgDB::Options> options = found.options;
-    const osgDB::ReaderWriter::ReadResult result =
+    osgDB::ReaderWriter::ReadResult result =
         osgDB::Registry::instance()->readImage(found.file, options.get());
     threadImages = current;
-    const osg::Image* read = result.validImage() ? const_cast<osgDB::ReaderWriter::ReadResult&>(result).getImage() : nullptr;
+    const osg::Image* read = result.validImage() ? result.getImage() : nullptr;
     if (!read || !read->data())
     {
         OSG_WARN << "osgPagedTexture: '" << found.file

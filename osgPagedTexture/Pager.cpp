@@ -70,7 +70,7 @@ void Pager::remove(unsigned int texture)
     std::lock_guard<std::mutex> lock(_mutex);
     Entry& entry = _entries[texture];
     entry.removed = true;
-    cancel(entry);
+    cancel(texture);
     for (auto& each : _contexts)
         each.second.queue->evict(texture);
 }
@@ -212,25 +212,32 @@ void Pager::accept(const ChainResult& result)
     const auto found = _requests.find(result.id);
     if (found == _requests.end())
         return;
-    const unsigned int texture = found->second;
+    const std::vector<unsigned int> textures = found->second;
+    if (result.state != ChainResult::State::Preview)
+        _requests.erase(found);
+    for (const unsigned int texture : textures)
+        give(result, texture);
+}
+
+void Pager::give(const ChainResult& result, unsigned int texture)
+{
     Entry& entry = _entries[texture];
     if (result.state != ChainResult::State::Preview)
     {
-        _requests.erase(found);
         entry.request = 0;
         entry.requested = None;
     }
-    if (result.state == ChainResult::State::Failed)
+    if (result.state != ChainResult::State::Failed)
     {
-        // What is there already stays.
-        const int there = coarsest(texture);
-        if (there == UploadEvent::Gone)
-            entry.state->failed = true;
-        else
-            entry.finest = there;
+        pushToAll(texture, result.chain);
         return;
     }
-    pushToAll(texture, result.chain);
+    // What is there already stays.
+    const int there = coarsest(texture);
+    if (there == UploadEvent::Gone)
+        entry.state->failed = true;
+    else
+        entry.finest = there;
 }
 
 void Pager::pushToAll(unsigned int texture, const std::shared_ptr<const MipChain>& chain)
@@ -306,12 +313,16 @@ double Pager::priority(const Entry& entry, int there) const
     return (entry.pixels > 0.0 ? 1000.0 : 0.0) + 10.0 * gap + size;
 }
 
-void Pager::cancel(Entry& entry)
+void Pager::cancel(unsigned int texture)
 {
+    Entry& entry = _entries[texture];
     if (!entry.request)
         return;
     _loader->cancel(entry.request);
-    _requests.erase(entry.request);
+    std::vector<unsigned int>& textures = _requests[entry.request];
+    textures.erase(std::remove(textures.begin(), textures.end(), texture), textures.end());
+    if (textures.empty())
+        _requests.erase(entry.request);
     entry.request = 0;
     entry.requested = None;
 }
@@ -365,7 +376,7 @@ void Pager::moveTo(unsigned int texture)
     if (needsChain)
         ask(texture);
     else
-        cancel(entry);
+        cancel(texture);
 }
 
 void Pager::ask(unsigned int texture)
@@ -379,7 +390,7 @@ void Pager::ask(unsigned int texture)
         _loader->setPriority(entry.request, priority(entry, there));
         return;
     }
-    cancel(entry);
+    cancel(texture);
     const std::string key = formatName(entry.format) + (entry.image.isNormalMap ? "n" : "c") +
                             std::to_string(int(_settings.quality));
     std::shared_ptr<const ChainRecipe>& recipe = _recipes[key];
@@ -393,7 +404,7 @@ void Pager::ask(unsigned int texture)
     request.previewSide = there == UploadEvent::Gone ? int(_settings.previewSide) : 0;
     entry.request = loader().request(request);
     entry.requested = entry.target;
-    _requests[entry.request] = texture;
+    _requests[entry.request].push_back(texture);
 }
 
 ChainLoader& Pager::loader()

@@ -168,7 +168,8 @@ private:
     void moveTo(unsigned int texture);
     bool orderIn(Context& context, unsigned int texture, int target);
     void ask(unsigned int texture);
-    void cancel(Entry& entry);
+    void cancel(unsigned int texture);
+    void give(const ChainResult& result, unsigned int texture);
     void pushToAll(unsigned int texture, const std::shared_ptr<const MipChain>& chain);
     int coarsest(unsigned int texture) const;
     double priority(const Entry& entry, int there) const;
@@ -186,7 +187,7 @@ private:
     std::deque<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
     ContextAbilities _abilities; ///< What all contexts can do.
-    std::map<RequestId, unsigned int> _requests;
+    std::map<RequestId, std::vector<unsigned int>> _requests; ///< Equal ones share a number.
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;
