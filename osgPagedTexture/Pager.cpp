@@ -54,6 +54,16 @@ PagedSettings Pager::getSettings() const
 unsigned int Pager::add(const PagedImage& image)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    const auto [found, isNew] =
+        _byFile.insert({{image.file, image.isNormalMap}, unsigned(_entries.size())});
+    if (!isNew)
+    {
+        Entry& entry = _entries[found->second];
+        ++entry.users;
+        entry.image.anisotropy = std::max(entry.image.anisotropy, image.anisotropy);
+        entry.image.lodBias = std::min(entry.image.lodBias, image.lodBias);
+        return found->second;
+    }
     _entries.emplace_back();
     _entries.back().image = image;
     _entries.back().state->translucent = image.translucent;
@@ -62,14 +72,16 @@ unsigned int Pager::add(const PagedImage& image)
         each.second.resident.push_back(UploadEvent::Gone);
         each.second.queued.push_back(None);
     }
-    return unsigned(_entries.size()) - 1;
+    return found->second;
 }
 
 void Pager::remove(unsigned int texture)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     Entry& entry = _entries[texture];
-    entry.removed = true;
+    if (--entry.users > 0)
+        return;
+    _byFile.erase({entry.image.file, entry.image.isNormalMap});
     cancel(texture);
     for (auto& each : _contexts)
         each.second.queue->evict(texture);
@@ -267,7 +279,7 @@ void Pager::plan()
         Entry& entry = _entries[i];
         ResidencyWish& wish = _wishes[i];
         wish = {};
-        if (entry.removed || entry.state->failed || !entry.bytes)
+        if (entry.users == 0 || entry.state->failed || !entry.bytes)
             continue;
         const TexelTexture texture{entry.image.width, entry.image.height, entry.image.anisotropy,
                                    entry.image.lodBias};
@@ -363,7 +375,7 @@ bool Pager::orderIn(Context& context, unsigned int texture, int target)
 void Pager::moveTo(unsigned int texture)
 {
     Entry& entry = _entries[texture];
-    if (entry.removed || entry.state->failed)
+    if (entry.users == 0 || entry.state->failed)
         return;
     bool needsChain = false, isChanging = false;
     for (auto& each : _contexts)
@@ -435,7 +447,7 @@ bool Pager::isAtRestIn(unsigned int contextID) const
     {
         const Entry& entry = _entries[i];
         const bool isDone = context.resident[i] == entry.target && context.queued[i] == None;
-        if (!isDone && !entry.removed && !entry.state->failed)
+        if (!isDone && entry.users > 0 && !entry.state->failed)
             return false;
     }
     return true;
@@ -537,7 +549,7 @@ PagerStatistics Pager::getStatistics() const
     for (std::size_t i = 0; i < _entries.size(); ++i)
     {
         const Entry& entry = _entries[i];
-        if (entry.removed)
+        if (entry.users == 0)
             continue;
         ++result.textures;
         result.inView += entry.need >= 0.0 ? 1 : 0;
@@ -568,7 +580,7 @@ std::vector<Pager::Line> Pager::getLines() const
     for (std::size_t i = 0; i < _entries.size(); ++i)
     {
         const Entry& entry = _entries[i];
-        if (!entry.removed)
+        if (entry.users > 0)
             lines.push_back({entry.image.file, coarsest(unsigned(i)), entry.target, entry.need,
                              entry.state->failed, entry.image.width, entry.image.height});
     }

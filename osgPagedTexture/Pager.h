@@ -78,10 +78,11 @@ public:
     void setSettings(const PagedSettings& settings);
     PagedSettings getSettings() const;
 
-    /// Numbers start at 0.
+    /// Numbers start at 0. Images of the same file are one, and one GL texture: what else users
+    /// want of it, OSG sets with each use. The finest filter of all counts.
     unsigned int add(const PagedImage& image);
 
-    /// Its texture exists no more.
+    /// One user less; the last one takes it with him.
     void remove(unsigned int texture);
 
     void report(const std::vector<PagedDemand>& demands, unsigned int frame);
@@ -147,7 +148,7 @@ private:
         int finest = 0; ///< Of what GL and the file allow.
         RequestId request = 0;
         int requested = -1;
-        bool removed = false;
+        unsigned int users = 1;
         std::shared_ptr<PagedState> state = std::make_shared<PagedState>();
     };
     struct Context
@@ -187,6 +188,7 @@ private:
     std::deque<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
     ContextAbilities _abilities; ///< What all contexts can do.
+    std::map<std::pair<std::string, bool>, unsigned int> _byFile; ///< And whether normals.
     std::map<RequestId, std::vector<unsigned int>> _requests; ///< Equal ones share a number.
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
