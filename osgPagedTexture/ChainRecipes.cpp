@@ -11,19 +11,19 @@ namespace osgPagedTexture
 BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compression compression,
                       const ContextAbilities& abilities)
 {
-    const bool isGrey = channels < 3;
     const bool compresses = false && compression != Compression::None;
+    // Fixed-function texture environments take alpha from formats that are named after it alone,
+    // so that two channels can't stand for grey and alpha.
+    const bool isGrey = channels < 3 && !translucent;
     if (isNormalMap)
-        return channels == 4 ? BlockFormat::RGBA8 : BlockFormat::RGB8;
-    if (isGrey && compresses && abilities.rgtc)
-        return translucent ? BlockFormat::BC5 : BlockFormat::BC4;
+        return BlockFormat::RGBA8;
     if (isGrey)
-        return translucent ? BlockFormat::RG8 : BlockFormat::R8;
+        return compresses && abilities.rgtc ? BlockFormat::BC4 : BlockFormat::R8;
     if (compression == Compression::Best && abilities.bptc)
         return BlockFormat::BC7;
     if (compresses && abilities.s3tc)
         return translucent ? BlockFormat::BC3 : BlockFormat::BC1;
-    return translucent ? BlockFormat::RGBA8 : BlockFormat::RGB8;
+    return BlockFormat::RGBA8; // Drivers keep RGB so, too.
 }
 
 namespace

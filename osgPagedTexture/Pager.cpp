@@ -90,6 +90,7 @@ void Pager::remove(unsigned int texture)
 void Pager::report(const std::vector<PagedDemand>& demands, unsigned int frame)
 {
     std::lock_guard<std::mutex> lock(_mutex);
+    _reported = frame;
     for (const PagedDemand& demand : demands)
     {
         Entry& entry = _entries[demand.texture];
@@ -510,7 +511,8 @@ void Pager::waitForAll(osg::State& state, unsigned int frame)
     queue->begin(state);
     {
         std::lock_guard<std::mutex> lock(_mutex);
-        if (_waited == frame || _settings.freeze)
+        // Objects are compiled before the first cull, too, when nothing is known to be in view.
+        if (_waited == frame || _reported != frame || _settings.freeze)
             return;
         _waited = frame;
     }

@@ -197,6 +197,7 @@ private:
     ResidencyPlan _plan;
     unsigned int _frame = ~0u;
     unsigned int _waited = ~0u;
+    unsigned int _reported = ~0u;
     double _planMilliseconds = 0.0;
     std::size_t _changing = 0;
     FrameTimes _times, _bytes;
