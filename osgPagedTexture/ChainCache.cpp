@@ -50,19 +50,44 @@ std::string temporaryName(const std::string& path)
     return path + "." + hashBytes(number, sizeof(number)).text().substr(0, 16) + TemporaryExtension;
 }
 
-std::optional<ChainFileLayout> readLayout(std::FILE* file, std::uint64_t fileBytes)
-{
-    std::string head(MaxChainHeaderBytes, '\0');
-    head.resize(std::fread(head.data(), 1, head.size(), file));
-    return parseChainHeader(head, fileBytes);
-}
-
 std::uint64_t lengthOf(std::FILE* file)
 {
     std::fseek(file, 0, SEEK_END);
     const long length = std::ftell(file);
     std::rewind(file);
     return length < 0 ? 0 : static_cast<std::uint64_t>(length);
+}
+
+/// An entry's file with what its header says; a file without that is damaged.
+struct OpenEntry
+{
+    OpenEntry(const std::string& path, const ContentHash& key)
+        : file(std::fopen(path.c_str(), "rb"))
+    {
+        if (file)
+        {
+            const std::uint64_t fileBytes = lengthOf(file.get());
+            std::string head(MaxChainHeaderBytes, '\0');
+            head.resize(std::fread(head.data(), 1, head.size(), file.get()));
+            layout = parseChainHeader(head, fileBytes);
+            damaged = !layout || layout->key != key;
+        }
+    }
+    File file;
+    std::optional<ChainFileLayout> layout;
+    bool damaged = false;
+};
+
+/// Notes that an entry was used.
+void touch(const std::string& path)
+{
+    std::error_code error;
+    const auto now = fs::file_time_type::clock::now();
+    const auto used = fs::last_write_time(path, error);
+    if (!error && (used + TouchInterval < now || used > now))
+    {
+        fs::last_write_time(path, now, error);
+    }
 }
 
 struct Entry
@@ -123,57 +148,64 @@ std::string ChainCache::getPath(const ContentHash& key) const
     return (fs::path(_folder) / name.substr(0, 2) / (name + Extension)).string();
 }
 
-std::optional<MipChain> ChainCache::find(const ContentHash& key) const
+std::optional<MipChain> ChainCache::find(const ContentHash& key)
 {
-    const File file(_folder.empty() ? nullptr : std::fopen(getPath(key).c_str(), "rb"));
-    const auto layout =
-        file ? readLayout(file.get(), lengthOf(file.get())) : std::optional<ChainFileLayout>();
-    if (!layout || layout->key != key)
+    if (_folder.empty())
     {
         return {};
     }
-    return MipChain{layout->format, layout->width, layout->height, layout->firstLevel, {}};
+    const OpenEntry entry(getPath(key), key);
+    if (entry.damaged)
+    {
+        remove(key);
+    }
+    if (!entry.file || entry.damaged)
+    {
+        return {};
+    }
+    const ChainFileLayout& layout = *entry.layout;
+    return MipChain{layout.format, layout.width, layout.height, layout.firstLevel, {}};
+}
+
+void ChainCache::remove(const ContentHash& key)
+{
+    std::error_code ignored;
+    fs::remove(getPath(key), ignored);
+    const std::lock_guard<std::mutex> lock(_mutex);
+    ++_statistics.damaged;
 }
 
 std::optional<MipChain> ChainCache::read(const ContentHash& key, int firstLevel)
 {
-    const std::string path = getPath(key);
-    File file(_folder.empty() ? nullptr : std::fopen(path.c_str(), "rb"));
     std::optional<MipChain> chain;
     std::uint64_t bytesRead = 0;
-    bool damaged = false;
-    if (file)
+    if (!_folder.empty())
     {
-        const auto layout = readLayout(file.get(), lengthOf(file.get()));
-        damaged = !layout || layout->key != key;
-        if (!damaged && layout->firstLevel <= firstLevel)
+        OpenEntry entry(getPath(key), key);
+        if (entry.file && !entry.damaged && entry.layout->firstLevel <= firstLevel)
         {
-            const int last = layout->firstLevel + layout->levels() - 1;
-            const int level = std::min(firstLevel, last);
-            const std::uint64_t start = layout->levelOffset(level);
-            std::string tail(layout->fileBytes() - start, '\0');
-            std::fseek(file.get(), static_cast<long>(start), SEEK_SET);
-            tail.resize(std::fread(tail.data(), 1, tail.size(), file.get()));
+            const ChainFileLayout& layout = *entry.layout;
+            const int level = std::min(firstLevel, layout.firstLevel + layout.levels() - 1);
+            const std::uint64_t start = layout.levelOffset(level);
+            std::string tail(layout.fileBytes() - start, '\0');
+            std::fseek(entry.file.get(), static_cast<long>(start), SEEK_SET);
+            tail.resize(std::fread(tail.data(), 1, tail.size(), entry.file.get()));
             bytesRead = tail.size();
-            chain = readChainTail(*layout, level, tail);
-            damaged = !chain;
+            chain = readChainTail(layout, level, tail);
+            entry.damaged = !chain;
         }
-        file.reset();
-        std::error_code ignored;
-        const auto now = fs::file_time_type::clock::now();
-        if (damaged)
+        entry.file.reset();
+        if (entry.damaged)
         {
-            fs::remove(path, ignored);
+            remove(key);
         }
-        else if (const auto used = fs::last_write_time(path, ignored);
-                 chain && !ignored && (used + TouchInterval < now || used > now))
+        else if (chain)
         {
-            fs::last_write_time(path, now, ignored);
+            touch(getPath(key));
         }
     }
     const std::lock_guard<std::mutex> lock(_mutex);
     ++(chain ? _statistics.hits : _statistics.misses);
-    _statistics.damaged += damaged;
     _statistics.bytesRead += bytesRead;
     return chain;
 }

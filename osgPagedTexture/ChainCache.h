@@ -46,7 +46,7 @@ public:
     std::optional<MipChain> read(const ContentHash& key, int firstLevel);
 
     /// What an entry holds, by its header alone: a chain without its levels.
-    std::optional<MipChain> find(const ContentHash& key) const;
+    std::optional<MipChain> find(const ContentHash& key);
 
     /// Keeps a chain. An entry that holds finer levels is left as it is. Returns whether an entry
     /// at least as fine is there now; a failure is told once by takeMessages().
@@ -62,6 +62,7 @@ public:
     std::vector<std::string> takeMessages();
 
 private:
+    void remove(const ContentHash& key);
     bool writeFile(const std::string& path, const std::string& bytes);
     void makeRoom(std::uint64_t newBytes);
     void fail(const std::string& action, const std::string& cause);

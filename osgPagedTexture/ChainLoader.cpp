@@ -72,6 +72,7 @@ public:
     void schedule(RequestId id, Ticket& ticket, double delaySeconds);
     void work(RequestId id, const std::atomic<bool>& cancelled);
     void finish(RequestId id, ChainSource::Result loaded);
+    void name(const std::string& file, const std::string& error);
     void fail(RequestId id, const std::string& error, bool retried);
 
     const std::vector<double> retrySeconds;
@@ -141,7 +142,8 @@ void ChainLoader::State::finish(RequestId id, ChainSource::Result loaded)
     }
     Ticket& ticket = found->second;
     ticket.attempts = 0;
-    failedFiles.erase(ticket.request.file);
+    loaded.warning.empty() ? void(failedFiles.erase(ticket.request.file))
+                           : name(ticket.request.file, loaded.warning);
     ChainResult result;
     result.id = id;
     result.state = loaded.preview ? ChainResult::State::Preview : ChainResult::State::Complete;
@@ -155,6 +157,15 @@ void ChainLoader::State::finish(RequestId id, ChainSource::Result loaded)
     }
     ++ended;
     ++statistics.completed;
+}
+
+/// Of what is wrong with a file, only the first line is told until it is right again.
+void ChainLoader::State::name(const std::string& file, const std::string& error)
+{
+    if (failedFiles.insert(file).second)
+    {
+        messages.push_back("osgPagedTexture::ChainLoader: " + error);
+    }
 }
 
 void ChainLoader::State::fail(RequestId id, const std::string& error, bool retried)
@@ -172,10 +183,7 @@ void ChainLoader::State::fail(RequestId id, const std::string& error, bool retri
         schedule(id, ticket, retrySeconds[ticket.attempts++]);
         return;
     }
-    if (failedFiles.insert(ticket.request.file).second)
-    {
-        messages.push_back("osgPagedTexture::ChainLoader: " + error);
-    }
+    name(ticket.request.file, error);
     ChainResult result;
     result.id = id;
     result.error = error;

@@ -139,6 +139,7 @@ void ChainSource::decode(Job& job)
     {
         _cache.write(job.key(), chain);
     }
+    job.result.warning = image.warning;
     job.take(std::move(chain));
 }
 

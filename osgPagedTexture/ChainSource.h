@@ -22,6 +22,7 @@ public:
     {
         std::shared_ptr<const MipChain> chain;
         MemoryBudget::Reservation memory; ///< Of the chain.
+        std::string warning;              ///< Of a damaged file that is shown all the same.
         bool preview = false;             ///< Coarser than the request's own level.
     };
     struct Counters

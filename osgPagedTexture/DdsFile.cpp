@@ -117,6 +117,15 @@ std::uint64_t ChainFileLayout::fileBytes() const
     return tableOffset() + sizeof(std::uint64_t) * levels();
 }
 
+std::uint64_t ChainFileLayout::checksumOf(const char* table) const
+{
+    // The header has a part in it: sizes whose coarse levels are alike differ in nothing else.
+    ChainFileLayout unsealed = *this;
+    unsealed.tableChecksum = 0;
+    const std::string text = unsealed.header();
+    return checksum(table, sizeof(std::uint64_t) * levels(), checksum(text.data(), text.size()));
+}
+
 std::string ChainFileLayout::header() const
 {
     constexpr std::uint32_t caps = 0x1, heightWidth = 0x6, pitch = 0x8, pixelFormatFlag = 0x1000,
@@ -200,9 +209,8 @@ std::string writeChainFile(const ContentHash& key, const MipChain& chain)
     {
         putLong(table, levelChecksum(key, chain.firstLevel + static_cast<int>(i), chain.levels[i]));
     }
-    const ChainFileLayout layout{chain.format, chain.width,
-                                 chain.height, chain.firstLevel,
-                                 key,          checksum(table.data(), table.size())};
+    ChainFileLayout layout{chain.format, chain.width, chain.height, chain.firstLevel, key, 0};
+    layout.tableChecksum = layout.checksumOf(table.data());
     std::string text;
     text.reserve(layout.fileBytes());
     text += layout.header();
@@ -222,7 +230,7 @@ std::optional<MipChain> readChainTail(const ChainFileLayout& layout, int firstLe
         return {};
     }
     const std::size_t tableAt = layout.tableOffset() - start;
-    if (checksum(tail.data() + tableAt, tail.size() - tableAt) != layout.tableChecksum)
+    if (layout.checksumOf(tail.data() + tableAt) != layout.tableChecksum)
     {
         return {};
     }

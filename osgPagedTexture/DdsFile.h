@@ -13,9 +13,10 @@ namespace osgPagedTexture
 {
 
 /// The file of a chain: a DDS texture whose level 0 is the chain's finest, as other programs read
-/// it, and after its last level a checksum for each level. Rows lie as in memory: the first one is
-/// the bottom of the picture, as OpenGL takes it (programs that follow Direct3D show it upside
-/// down). What DDS has no place for stands in the reserved words of its header.
+/// it (OSG 3.6.5's own all but BC7), and after its last level a checksum for each level. Rows lie
+/// as in memory: the first one is the bottom of the picture, as OpenGL takes it (programs that
+/// follow Direct3D show it upside down). What DDS has no place for stands in the reserved words of
+/// its header.
 ///
 ///     "DDS " | header | DX10 header (BC7 only) | finest level ... 1x1 | checksum of each level
 struct ChainFileLayout
@@ -25,7 +26,7 @@ struct ChainFileLayout
     int height = 0;
     int firstLevel = 0;
     ContentHash key;
-    std::uint64_t tableChecksum = 0; ///< Of the checksums of the levels.
+    std::uint64_t tableChecksum = 0; ///< Of the checksums of the levels and of the header.
 
     int levels() const { return levelCount(width, height) - firstLevel; }
     std::size_t headerBytes() const;
@@ -33,6 +34,7 @@ struct ChainFileLayout
     std::uint64_t levelOffset(int level) const;
     std::uint64_t tableOffset() const { return levelOffset(firstLevel + levels()); }
     std::string header() const;
+    std::uint64_t checksumOf(const char* table) const; ///< What tableChecksum should be.
 };
 
 /// More than any header.

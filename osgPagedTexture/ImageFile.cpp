@@ -8,11 +8,6 @@
 namespace osgPagedTexture
 {
 
-ImageError::ImageError(Kind kind, const std::string& path, const std::string& causeAndRemedy)
-    : std::runtime_error("'" + path + "': " + causeAndRemedy), _kind(kind)
-{
-}
-
 ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool lookAtAlpha)
 {
     // A JPEG's header lies within this but for giant profiles; then all of it is read.

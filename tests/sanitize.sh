@@ -9,9 +9,11 @@ folder=build-${sanitizers//,/-}
 OSGKITS_TARGETS=osgMultiRender ./setup.sh
 cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DOSGKITS_SANITIZE="$sanitizers" >/dev/null
 targets=(osgMultiRender.{GlslToken,GlslSource,GlslWrap,SurfaceKey,SurfaceState,PseudoLoader}Test
-    osgShadowVolume.{LightReach,LightGrid}Test precision.PrecisionTest)
+    osgShadowVolume.{LightReach,LightGrid}Test
+    osgPagedTexture.{ImageFile,ImageFileError,DamagedJpeg,ChainCache,SourceIndex,WorkerPool,ChainLoader,ChainLoaderFailure}Test
+    precision.PrecisionTest)
 NINJA_STATUS="[%f/%t] " cmake --build "$folder" --target "${targets[@]}"
 # OSG keeps its registries until the end, so leaks are looked for in the GLSL model alone (tests/fuzz).
-export ASAN_OPTIONS=detect_leaks=0
+export ASAN_OPTIONS=detect_leaks=0 TSAN_OPTIONS=suppressions=$PWD/tests/thread-suppressions.txt
 regex=$(IFS='|'; echo "^(${targets[*]})\$")
 ctest --test-dir "$folder" -R "${regex//./\\.}" --output-on-failure

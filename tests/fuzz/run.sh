@@ -10,16 +10,16 @@ if [ ! -f build-fuzz/build.ninja ]; then
     cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
         -DOSGKITS_BUILD_FUZZERS=ON -DOSGKITS_BUILD_TESTS=OFF -DOSGKITS_BUILD_EXAMPLES=OFF >/dev/null
 fi
-cmake --build build-fuzz --target GlslSourceFuzz GlslSourceCorpus MergerFuzz MergerCorpus
+cmake --build build-fuzz --target {GlslSource,Merger,Jpeg,ChainFile}{Fuzz,Corpus}
 
-# run <name>: <name>Fuzz on what <name>Corpus writes.
+# run <name> [flag]: <name>Fuzz on what <name>Corpus writes.
 run() {
     local fuzzer writer log=build-fuzz/$1Fuzz.log corpus=build-fuzz/corpus-$1
     fuzzer=$(find build-fuzz -name "$1Fuzz" -type f -perm -u+x | head -n 1)
     writer=$(find build-fuzz -name "$1Corpus" -type f -perm -u+x | head -n 1)
     mkdir -p "$corpus"
     "$writer" "$corpus"
-    "$fuzzer" "$corpus" -dict=tests/fuzz/glsl.dict -max_total_time="$seconds" -timeout=2 \
+    "$fuzzer" "$corpus" "${@:2}" -max_total_time="$seconds" -timeout=2 \
         -max_len=16384 -rss_limit_mb=4096 -artifact_prefix=build-fuzz/ -print_final_stats=1 \
         -verbosity=1 >"$log" 2>&1 || {
         tail -n 40 "$log" >&2
@@ -30,5 +30,7 @@ run() {
     grep -E 'cov:' "$log" | tail -n 1
     echo "$1Fuzz: clean for $seconds s"
 }
-run GlslSource
-run Merger
+run GlslSource -dict=tests/fuzz/glsl.dict
+run Merger -dict=tests/fuzz/glsl.dict
+run Jpeg
+run ChainFile
