@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/FileImages.h>
 
+#include <osgPagedTexture/StandInCallback.h>
+
 #include <osg/Notify>
-#include <osgDB/Callbacks>
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
 #include <osgDB/Registry>
@@ -18,60 +19,6 @@ namespace
 {
 
 thread_local FileImages* threadImages = nullptr;
-
-/// Gives stand-ins to threads that ask for them; hands all else on.
-class StandInCallback : public osgDB::ReadFileCallback
-{
-public:
-    using Result = osgDB::ReaderWriter::ReadResult;
-
-    explicit StandInCallback(osgDB::ReadFileCallback* next) : _next(next) {}
-
-    Result readImage(const std::string& name, const osgDB::Options* options) override
-    {
-        if (FileImages* images = FileImages::current())
-            if (osg::ref_ptr<osg::Image> image = images->standIn(name, options))
-                return Result(image.get());
-        return _next ? _next->readImage(name, options)
-                     : osgDB::ReadFileCallback::readImage(name, options);
-    }
-    Result openArchive(const std::string& name, osgDB::ReaderWriter::ArchiveStatus status,
-                       unsigned int hint, const osgDB::Options* options) override
-    {
-        return _next ? _next->openArchive(name, status, hint, options)
-                     : osgDB::ReadFileCallback::openArchive(name, status, hint, options);
-    }
-    Result readObject(const std::string& name, const osgDB::Options* options) override
-    {
-        return _next ? _next->readObject(name, options)
-                     : osgDB::ReadFileCallback::readObject(name, options);
-    }
-    Result readHeightField(const std::string& name, const osgDB::Options* options) override
-    {
-        return _next ? _next->readHeightField(name, options)
-                     : osgDB::ReadFileCallback::readHeightField(name, options);
-    }
-    Result readNode(const std::string& name, const osgDB::Options* options) override
-    {
-        return _next ? _next->readNode(name, options)
-                     : osgDB::ReadFileCallback::readNode(name, options);
-    }
-    Result readShader(const std::string& name, const osgDB::Options* options) override
-    {
-        return _next ? _next->readShader(name, options)
-                     : osgDB::ReadFileCallback::readShader(name, options);
-    }
-    Result readScript(const std::string& name, const osgDB::Options* options) override
-    {
-        return _next ? _next->readScript(name, options)
-                     : osgDB::ReadFileCallback::readScript(name, options);
-    }
-
-    osgDB::ReadFileCallback* getNext() const { return _next.get(); }
-
-private:
-    const osg::ref_ptr<osgDB::ReadFileCallback> _next;
-};
 
 /// The Registry's callback while any thread has a FileImages.
 class Registration

@@ -100,6 +100,7 @@ const std::vector<PagedOption>& pagedOptions()
         choice<PagedShow>("show", &S::show,
                           {{"picture", PagedShow::Picture}, {"levels", PagedShow::Levels}},
                           "The textures, or a colour for how fine each of them is"),
+        flag("graph", &S::graph, "Shows times of uploads and memory over the picture"),
         flag("keys", &S::keys, "Answers to keys in osgviewer"),
     };
     return options;

@@ -3,6 +3,9 @@
 
 #include <osgPagedTexture/FileImages.h>
 #include <osgPagedTexture/NeedCollector.h>
+#include <osgPagedTexture/PagedGraph.h>
+#include <osgPagedTexture/PagedKeys.h>
+#include <osgPagedTexture/PagedLods.h>
 #include <osgPagedTexture/PagedOptions.h>
 #include <osgPagedTexture/PagedTextures.h>
 #include <osgPagedTexture/Pager.h>
@@ -55,6 +58,7 @@ struct PagedScene::Views
     std::mutex mutex;
     std::map<const osg::Camera*, Eye> eyes;
     std::set<const osg::GraphicsContext*> contexts;
+    PagedGraph graph;
 };
 
 PagedScene::PagedScene()
@@ -68,7 +72,7 @@ PagedScene::PagedScene()
 PagedScene::PagedScene(const PagedScene& other, const osg::CopyOp& copyop)
     : osg::Group(other, copyop), osgMultiRender::Planned(), _settings(other._settings),
       _pager(other._pager), _surfaces(other._surfaces), _scope(new osg::StateSet),
-      _views(std::make_unique<Views>()), _left(other._left)
+      _views(std::make_unique<Views>()), _isInstalled(other._isInstalled), _left(other._left)
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
@@ -102,18 +106,23 @@ osgDB::ReaderWriter::ReadResult PagedScene::readModel(const std::string& file,
     osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(file, own.get());
     if (!result.validNode())
         return result;
-    for (const LeftTexture& left : pageTextures(*result.getNode(), _pager, &images))
-        _left.emplace_back(left.name, left.reason);
-    findSurfaces(*result.getNode(), *_surfaces);
+    take(*result.getNode(), &images);
     addChild(result.getNode());
     return result;
 }
 
 void PagedScene::install(osg::Node& subgraph)
 {
-    for (const LeftTexture& left : pageTextures(subgraph, _pager, nullptr))
+    take(subgraph, nullptr);
+}
+
+void PagedScene::take(osg::Node& subgraph, const FileImages* images)
+{
+    for (const LeftTexture& left : pageTextures(subgraph, _pager, images))
         _left.emplace_back(left.name, left.reason);
+    pageLater(subgraph, _pager);
     findSurfaces(subgraph, *_surfaces);
+    _isInstalled = true;
 }
 
 bool PagedScene::isAtRest() const
@@ -134,14 +143,23 @@ void PagedScene::traverse(osg::NodeVisitor& visitor)
         cull(*cullVisitor);
     else
         osg::Group::traverse(visitor);
-    if (visitor.getVisitorType() == osg::NodeVisitor::EVENT_VISITOR && !_pager->isAtRest())
-        if (osgGA::GUIActionAdapter* viewer =
-                static_cast<osgGA::EventVisitor&>(visitor).getActionAdapter())
-            viewer->requestRedraw();
+    if (visitor.getVisitorType() != osg::NodeVisitor::EVENT_VISITOR)
+        return;
+    auto& events = static_cast<osgGA::EventVisitor&>(visitor);
+    if (_settings.keys)
+        answerKeys(*this, events);
+    if (events.getActionAdapter() && !_pager->isAtRest())
+        events.getActionAdapter()->requestRedraw();
 }
 
 void PagedScene::cull(osgUtil::CullVisitor& visitor)
 {
+    {
+        // One that comes from a file, with its model below it.
+        std::lock_guard<std::mutex> lock(_views->mutex);
+        if (!_isInstalled)
+            take(*this, nullptr);
+    }
     const osg::FrameStamp* stamp = visitor.getFrameStamp();
     const unsigned int frame = stamp ? stamp->getFrameNumber() : 0;
     _pager->advance(frame);
@@ -167,6 +185,8 @@ void PagedScene::cull(osgUtil::CullVisitor& visitor)
     const osgUtil::StateGraph* graph = visitor.getCurrentStateGraph();
     osg::Group::traverse(visitor);
     visitor.popStateSet();
+    if (_settings.graph)
+        _views->graph.cull(visitor, *_pager);
     _pager->report(collectDemands(*graph, visitor, *_pager, *_surfaces, moved), frame);
 }
 

@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/Export.h>
 #include <osgPagedTexture/PagedSettings.h>
+#include <osgPagedTexture/PagerStatistics.h>
 
 #include <osgMultiRender/Plan.h>
 
@@ -23,16 +24,16 @@ class CullVisitor;
 namespace osgPagedTexture
 {
 
+class FileImages;
 class Pager;
 class SurfaceCache;
-struct PagerStatistics;
 
 /// A scene whose 2D textures are read, compressed and uploaded in the background, as fine as what is
 /// in view needs and as its share of memory allows.
 ///
 /// The model keeps its osg::Texture2D objects with all of their parameters. Each starts as one grey
 /// texel, then as a small preview, then gets finer; what is no longer needed goes when the memory is
-/// short. Textures that fit all together are loaded whole, when they come into view. Nothing is read
+/// short. What its PagedLOD objects read later is paged, too. Textures that fit all together are loaded whole, when they come into view. Nothing is read
 /// and no thread started before the first frame that shows a texture.
 class OSGPAGEDTEXTURE_EXPORT PagedScene : public osg::Group, public osgMultiRender::Planned
 {
@@ -75,12 +76,14 @@ private:
     struct Views;
 
     void cull(osgUtil::CullVisitor& visitor);
+    void take(osg::Node& subgraph, const FileImages* images);
 
     PagedSettings _settings;
     const std::shared_ptr<Pager> _pager;
     const std::shared_ptr<SurfaceCache> _surfaces;
     const osg::ref_ptr<osg::StateSet> _scope; ///< Its leaves in a StateGraph of their own.
     const std::unique_ptr<Views> _views;
+    bool _isInstalled = false;
     std::vector<std::pair<std::string, std::string>> _left; ///< Not paged, and why.
 };
 

@@ -48,6 +48,7 @@ struct PagedSettings
     bool degraded = false; ///< What can be read of damaged files is shown.
     bool freeze = false;   ///< Nothing comes and nothing goes.
     PagedShow show = PagedShow::Picture;
+    bool graph = false; ///< Of uploads and memory, over the picture.
     bool keys = true;
 
     std::uint64_t gpuBytes() const { return std::uint64_t(gpuMegabytes * 1048576.0); }

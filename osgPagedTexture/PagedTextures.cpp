@@ -95,6 +95,8 @@ public:
     void page(osg::Texture& texture)
     {
         osg::Texture2D* flat = dynamic_cast<osg::Texture2D*>(&texture);
+        if (flat && dynamic_cast<const PagedSubload*>(flat->getSubloadCallback()))
+            return; // Another scene's, or this one's already.
         const std::string reason = !flat                ? "it is not a 2D texture"
                                    : !flat->getImage() ? std::string()
                                                        : obstacle(*flat);
@@ -128,25 +130,48 @@ private:
             give(texture, imageOf(found->file, found->info, texture), image->getFileName());
             return;
         }
-        const std::string file = osgDB::findDataFile(image->getFileName());
-        if (file.empty() || image->isCompressed())
-        {
-            left.push_back({image->getFileName(), file.empty() ? "it has no file of its own"
-                                                               : "it is compressed already"});
-            return;
-        }
+        if (!giveFile(texture, *image))
+            giveEmbedded(texture, *image);
+    }
+
+    /// The file that an image in memory was read from, where that still holds the same picture.
+    bool giveFile(osg::Texture2D& texture, const osg::Image& image)
+    {
+        const std::string file = osgDB::findDataFile(image.getFileName());
+        if (file.empty() || image.isCompressed())
+            return false;
         try
         {
             const ImageInfo info = readImageInfo(file);
-            if (info.width == image->s() && info.height == image->t())
-                give(texture, imageOf(file, info, texture), image->getFileName());
-            else
-                left.push_back({image->getFileName(), "its file has another size"});
+            if (info.width != image.s() || info.height != image.t())
+                return false;
+            give(texture, imageOf(file, info, texture), image.getFileName());
+            return true;
         }
-        catch (const ImageError& error)
+        catch (const ImageError&)
         {
-            left.push_back({image->getFileName(), error.what()});
+            return false; // It stays what it is.
         }
+    }
+
+    void giveEmbedded(osg::Texture2D& texture, const osg::Image& image)
+    {
+        std::string reason = EmbeddedImages::obstacle(image);
+        const std::string file =
+            reason.empty() ? _pager->getEmbedded().keep(image) : std::string();
+        if (file.empty())
+        {
+            left.push_back({image.getFileName(),
+                            reason.empty() ? "it can't be kept on disk" : reason});
+            return;
+        }
+        ImageInfo info;
+        info.width = image.s();
+        info.height = image.t();
+        info.channels = int(osg::Image::computeNumComponents(image.getPixelFormat()));
+        info.translucent = image.isImageTranslucent();
+        // Not in files: the stand-in would be all that is left of it there.
+        give(texture, imageOf(file, info, texture), {});
     }
 
     void give(osg::Texture2D& texture, const PagedImage& image, const std::string& name)

@@ -83,6 +83,8 @@ void Pager::remove(unsigned int texture)
         return;
     _byFile.erase({entry.image.file, entry.image.isNormalMap});
     cancel(texture);
+    if (entry.isWatched)
+        _watch->remove(entry.image.file);
     for (auto& each : _contexts)
         each.second.queue->evict(texture);
 }
@@ -121,6 +123,7 @@ void Pager::advanceLocked()
     const double start = threadMilliseconds();
     takeEvents();
     takeResults();
+    takeChanges();
     if (_settings.freeze)
         return;
     plan();
@@ -165,21 +168,61 @@ bool Pager::learnAbilities()
     }
     _abilities = all;
     for (Entry& entry : _entries)
-    {
-        if (entry.bytes)
-            continue;
-        const PagedImage& image = entry.image;
-        entry.format = formatFor(image.channels, image.translucent, image.isNormalMap,
-                                 _settings.compression, _abilities);
-        std::vector<std::uint64_t>& bytes = _sizes[{image.width, image.height, entry.format}];
-        if (bytes.empty())
-            for (int level = 0; level < levelCount(image.width, image.height); ++level)
-                bytes.push_back(chainBytes(entry.format, image.width, image.height, level));
-        entry.bytes = &bytes;
-        while (levelSide(std::max(image.width, image.height), entry.finest) > _abilities.maxSide)
-            ++entry.finest;
-    }
+        if (!entry.bytes)
+            setFormat(entry);
     return true;
+}
+
+void Pager::setFormat(Entry& entry)
+{
+    const PagedImage& image = entry.image;
+    entry.format = formatFor(image.channels, image.translucent, image.isNormalMap,
+                             _settings.compression, _abilities);
+    std::vector<std::uint64_t>& bytes = _sizes[{image.width, image.height, entry.format}];
+    if (bytes.empty())
+        for (int level = 0; level < levelCount(image.width, image.height); ++level)
+            bytes.push_back(chainBytes(entry.format, image.width, image.height, level));
+    entry.bytes = &bytes;
+    entry.finest = 0;
+    while (levelSide(std::max(image.width, image.height), entry.finest) > _abilities.maxSide)
+        ++entry.finest;
+}
+
+/// Files with new content. What is shown of them stays until the new texture is complete.
+void Pager::takeChanges()
+{
+    if (!_watch)
+        return;
+    for (const std::string& file : _watch->takeChanged())
+        for (unsigned int i = 0; i < _entries.size(); ++i)
+            if (_entries[i].users > 0 && _entries[i].image.file == file)
+                readAgain(i);
+}
+
+void Pager::readAgain(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    try
+    {
+        const ImageInfo info = readImageInfo(entry.image.file);
+        entry.image.width = info.width;
+        entry.image.height = info.height;
+        entry.image.channels = info.channels;
+        entry.image.translucent = info.translucent;
+    }
+    catch (const ImageError& error)
+    {
+        OSG_WARN << "osgPagedTexture: " << error.what() << "; what is there of it stays"
+                 << std::endl;
+        return;
+    }
+    cancel(texture);
+    setFormat(entry);
+    entry.state->failed = false;
+    entry.state->translucent = entry.image.translucent;
+    entry.isOld = true;
+    for (auto& each : _contexts)
+        each.second.resident[texture] = UploadEvent::Gone;
 }
 
 void Pager::takeEvents()
@@ -192,7 +235,10 @@ void Pager::takeEvents()
                 _entries[event.texture].finest =
                     std::min(event.level + 1, int(_entries[event.texture].bytes->size()) - 1);
             else
+            {
                 each.second.resident[event.texture] = event.level;
+                _entries[event.texture].isOld = false;
+            }
         }
 }
 
@@ -353,7 +399,8 @@ bool Pager::orderIn(Context& context, unsigned int texture, int target)
             context.queue->push({texture, level, nullptr});
         context.queued[texture] = level;
     };
-    if ((next == None ? there : next) == target)
+    const bool hasOld = _entries[texture].isOld && next == None;
+    if ((next == None ? there : next) == target && !hasOld)
         return false;
     if (target == UploadEvent::Gone)
     {
@@ -418,6 +465,13 @@ void Pager::ask(unsigned int texture)
     entry.request = loader().request(request);
     entry.requested = entry.target;
     _requests[entry.request].push_back(texture);
+    if (_settings.reload && !entry.isWatched)
+    {
+        if (!_watch)
+            _watch = std::make_unique<FileWatch>();
+        _watch->add(entry.image.file);
+        entry.isWatched = true;
+    }
 }
 
 ChainLoader& Pager::loader()

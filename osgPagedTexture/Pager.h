@@ -2,8 +2,11 @@
 #pragma once
 
 #include <osgPagedTexture/ChainLoader.h>
+#include <osgPagedTexture/EmbeddedImages.h>
+#include <osgPagedTexture/FileWatch.h>
 #include <osgPagedTexture/FrameTimes.h>
 #include <osgPagedTexture/PagedSettings.h>
+#include <osgPagedTexture/PagerStatistics.h>
 #include <osgPagedTexture/Residency.h>
 #include <osgPagedTexture/TexelNeed.h>
 #include <osgPagedTexture/UploadQueue.h>
@@ -47,22 +50,6 @@ struct PagedDemand
     double soonPixels = 0.0; ///< The same where the eye will be.
 };
 
-struct PagerStatistics
-{
-    std::size_t textures = 0;
-    std::size_t inView = 0;
-    std::size_t resident = 0; ///< In the first context.
-    std::size_t failed = 0;
-    std::size_t changing = 0; ///< That are not what they should be.
-    bool isWhole = false;     ///< All fit at full size, nothing is paged.
-    double bias = 0.0;        ///< See ResidencyPlan.
-    std::uint64_t plannedBytes = 0;
-    std::uint64_t wholeBytes = 0; ///< Of all of them at full size.
-    double planMilliseconds = 0.0;
-    UploadStatistics upload; ///< Of the context that has most.
-    ChainLoader::Statistics loader;
-};
-
 /// Decides which levels of which texture are where, and has them loaded and uploaded.
 ///
 /// Views report what they see while they are culled; once a frame, at the first of them, advance()
@@ -81,6 +68,9 @@ public:
     /// Numbers start at 0. Images of the same file are one, and one GL texture: what else users
     /// want of it, OSG sets with each use. The finest filter of all counts.
     unsigned int add(const PagedImage& image);
+
+    /// For pictures without a file.
+    EmbeddedImages& getEmbedded() { return _embedded; }
 
     /// One user less; the last one takes it with him.
     void remove(unsigned int texture);
@@ -149,6 +139,8 @@ private:
         RequestId request = 0;
         int requested = -1;
         unsigned int users = 1;
+        bool isWatched = false;
+        bool isOld = false; ///< What contexts show is of a file that has changed.
         std::shared_ptr<PagedState> state = std::make_shared<PagedState>();
     };
     struct Context
@@ -163,6 +155,9 @@ private:
     void meetContexts();
     bool learnAbilities();
     void takeEvents();
+    void takeChanges();
+    void readAgain(unsigned int texture);
+    void setFormat(Entry& entry);
     void takeResults();
     void accept(const ChainResult& result);
     void plan();
@@ -178,6 +173,7 @@ private:
     ChainLoader& loader();
     bool isAtRestIn(unsigned int contextID) const;
 
+    EmbeddedImages _embedded;
     mutable std::mutex _queueMutex; ///< Of `_queues` alone, taken after the other one.
     std::map<unsigned int, std::shared_ptr<UploadQueue>> _queues;
     std::atomic<bool> _showsLevels{false};
@@ -193,6 +189,7 @@ private:
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;
+    std::unique_ptr<FileWatch> _watch;
     std::vector<ResidencyWish> _wishes;
     ResidencyPlan _plan;
     unsigned int _frame = ~0u;

@@ -33,7 +33,7 @@ void UploadPace::took(std::uint64_t bytes, double milliseconds)
         return;
     // Slower counts at once, faster bit by bit.
     const double rate = std::clamp(double(bytes) / milliseconds, 1024.0, 1e9);
-    _rate = rate < _rate ? 0.5 * (_rate + rate) : 0.875 * _rate + 0.125 * rate;
+    _rate = rate < _rate ? rate : 0.875 * _rate + 0.125 * rate;
 }
 
 } // namespace osgPagedTexture

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgPagedTexture/MipChain.h>
+#include <osgPagedTexture/PagerStatistics.h>
 #include <osgPagedTexture/UploadPace.h>
 
 #include <osg/State>
@@ -50,17 +51,6 @@ struct UploadLimits
 {
     double milliseconds = 2.0;
     std::uint64_t bytes = 0; ///< On the GPU, of all textures.
-};
-
-struct UploadStatistics
-{
-    std::uint64_t bytes = 0;         ///< On the GPU now, of all textures, those in the making too.
-    std::uint64_t peakBytes = 0;
-    std::uint64_t uploaded = 0;      ///< So far.
-    std::uint64_t lastUploaded = 0;  ///< In the last frame.
-    double lastMilliseconds = 0.0;   ///< CPU time of the last frame's uploads.
-    std::size_t waiting = 0;         ///< Jobs.
-    std::uint64_t waitingBytes = 0;  ///< Of their chains.
 };
 
 /// The textures of one context and what they are to become.
