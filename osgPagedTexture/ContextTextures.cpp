@@ -11,6 +11,11 @@ ContextTextures::ContextTextures(unsigned int contextID)
 {
 }
 
+ContextTextures::~ContextTextures()
+{
+    *_validity = false;
+}
+
 void ContextTextures::doom(std::vector<GLuint> textures, std::vector<GLuint> buffers)
 {
     std::lock_guard<std::mutex> lock(_mutex);
@@ -32,7 +37,7 @@ void ContextTextures::flush()
 void ContextTextures::deleteAllGLObjects()
 {
     flush();
-    ++_generation;
+    invalidate();
 }
 
 void ContextTextures::discardAllGLObjects()
@@ -40,7 +45,13 @@ void ContextTextures::discardAllGLObjects()
     std::lock_guard<std::mutex> lock(_mutex);
     _textures.clear();
     _buffers.clear();
-    ++_generation;
+    invalidate();
+}
+
+void ContextTextures::invalidate()
+{
+    *_validity = false;
+    _validity = std::make_shared<std::atomic<bool>>(true);
 }
 
 } // namespace osgPagedTexture

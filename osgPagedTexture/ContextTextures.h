@@ -4,6 +4,8 @@
 #include <osg/ContextData>
 #include <osg/GLObjects>
 
+#include <atomic>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -20,8 +22,8 @@ public:
     /// Any thread; they go with the next frame.
     void doom(std::vector<GLuint> textures, std::vector<GLuint> buffers);
 
-    /// Changes when all names of the context have become void.
-    unsigned int getGeneration() const { return _generation; }
+    /// True until all names of the context become void; then there is a new one.
+    std::shared_ptr<const std::atomic<bool>> getValidity() const { return _validity; }
 
     /// In the draw thread.
     void flush();
@@ -31,11 +33,16 @@ public:
     void deleteAllGLObjects() override;
     void discardAllGLObjects() override;
 
+protected:
+    ~ContextTextures() override;
+
 private:
+    void invalidate();
+
     std::mutex _mutex;
     std::vector<GLuint> _textures;
     std::vector<GLuint> _buffers;
-    unsigned int _generation = 0;
+    std::shared_ptr<std::atomic<bool>> _validity = std::make_shared<std::atomic<bool>>(true);
 };
 
 } // namespace osgPagedTexture

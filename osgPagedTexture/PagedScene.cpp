@@ -12,12 +12,12 @@
 
 #include <osg/GraphicsContext>
 #include <osg/Notify>
+#include <osg/observer_ptr>
 #include <osgDB/Registry>
 #include <osgGA/EventVisitor>
 #include <osgUtil/CullVisitor>
 
 #include <map>
-#include <set>
 
 namespace osgPagedTexture
 {
@@ -57,7 +57,7 @@ struct PagedScene::Views
     };
     std::mutex mutex;
     std::map<const osg::Camera*, Eye> eyes;
-    std::set<const osg::GraphicsContext*> contexts;
+    std::map<osg::GraphicsContext*, osg::observer_ptr<osg::GraphicsContext>> contexts;
     PagedGraph graph;
 };
 
@@ -177,8 +177,13 @@ void PagedScene::cull(osgUtil::CullVisitor& visitor)
         eye = {place, time};
         osg::GraphicsContext* context =
             visitor.getState() ? visitor.getState()->getGraphicsContext() : nullptr;
-        if (context && _views->contexts.insert(context).second)
+        osg::observer_ptr<osg::GraphicsContext>* known =
+            context ? &_views->contexts[context] : nullptr;
+        if (known && !known->valid()) // Addresses are given again.
+        {
+            *known = context;
             context->add(new UploadOperation(_pager));
+        }
     }
 
     visitor.pushStateSet(_scope.get());

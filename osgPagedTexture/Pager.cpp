@@ -133,11 +133,17 @@ void Pager::advanceLocked()
     _planMilliseconds = threadMilliseconds() - start;
 }
 
+/// Those that are closed have nothing any more, and nothing is loaded for them.
 void Pager::meetContexts()
 {
     std::lock_guard<std::mutex> lock(_queueMutex);
     for (const auto& each : _queues)
     {
+        if (!each.second->isOpen())
+        {
+            _contexts.erase(each.first);
+            continue;
+        }
         Context& context = _contexts[each.first];
         if (context.queue)
             continue;

@@ -58,8 +58,7 @@ UploadQueue::UploadQueue(unsigned int contextID) : _contextID(contextID) {}
 
 UploadQueue::~UploadQueue()
 {
-    ContextTextures* names = osg::get<ContextTextures>(_contextID);
-    if (!names || names->getGeneration() != _generation)
+    if (!isOpen())
         return;
     std::vector<GLuint> textures;
     for (const auto& each : _textures)
@@ -70,7 +69,7 @@ UploadQueue::~UploadQueue()
         textures.push_back(_fault);
     if (_build)
         textures.push_back(_build->texture.name);
-    names->doom(textures, _buffer ? std::vector<GLuint>{_buffer} : std::vector<GLuint>());
+    osg::get<ContextTextures>(_contextID)->doom(textures, _buffer ? std::vector<GLuint>{_buffer} : std::vector<GLuint>());
 }
 
 void UploadQueue::push(UploadJob job)
@@ -83,6 +82,12 @@ void UploadQueue::evict(unsigned int texture)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     _ordered.push_back({texture, UploadEvent::Gone, nullptr});
+}
+
+bool UploadQueue::isOpen() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _validity && *_validity;
 }
 
 ContextAbilities UploadQueue::getAbilities() const
@@ -135,10 +140,9 @@ void UploadQueue::reset()
 void UploadQueue::begin(osg::State& state)
 {
     ContextTextures* names = state.get<ContextTextures>();
-    if (!_gl || names->getGeneration() != _generation)
+    if (!isOpen())
     {
         reset();
-        _generation = names->getGeneration();
         _gl = state.get<osg::GLExtensions>();
         osg::setGLExtensionFuncPtr(_copyImage, "glCopyImageSubData", "glCopyImageSubDataEXT",
                                    _gl->glVersion >= 4.3f ||
@@ -146,6 +150,7 @@ void UploadQueue::begin(osg::State& state)
         GLint side = 0;
         glGetIntegerv(MaxTextureSize, &side);
         std::lock_guard<std::mutex> lock(_mutex);
+        _validity = names->getValidity();
         _abilities.known = true;
         _abilities.s3tc =
             osg::isGLExtensionSupported(_contextID, "GL_EXT_texture_compression_s3tc");

@@ -7,6 +7,7 @@
 
 #include <osg/State>
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -69,6 +70,9 @@ public:
     void push(UploadJob job);
     void evict(unsigned int texture);
 
+    /// False before the first frame of the context and when the context is closed.
+    bool isOpen() const;
+
     ContextAbilities getAbilities() const;
     std::vector<UploadEvent> takeEvents();
     UploadStatistics getStatistics() const;
@@ -125,6 +129,7 @@ private:
     std::vector<UploadJob> _ordered;
     std::vector<unsigned int> _evicted;
     std::vector<UploadEvent> _events;
+    std::shared_ptr<const std::atomic<bool>> _validity; ///< Of the context's names.
     ContextAbilities _abilities;
     UploadStatistics _statistics;
 
@@ -132,7 +137,6 @@ private:
     osg::ref_ptr<osg::GLExtensions> _gl;
     void(GL_APIENTRY* _copyImage)(GLuint, GLenum, GLint, GLint, GLint, GLint, GLuint, GLenum, GLint,
                                   GLint, GLint, GLint, GLsizei, GLsizei, GLsizei) = nullptr;
-    unsigned int _generation = 0;
     std::unordered_map<unsigned int, Texture> _textures;
     std::unordered_map<std::uint32_t, GLuint> _plain;
     GLuint _fault = 0;

@@ -155,7 +155,9 @@ TEST_F(PagedFaultsGLTest, theOptimizerChangesNothing)
     const osg::ref_ptr<PagedScene> scene = paged::read(city);
     osgUtil::Optimizer optimizer;
     optimizer.optimize(scene, osgUtil::Optimizer::ALL_OPTIMIZATIONS);
-    EXPECT_TRUE(Exact(paged::settle(_viewer, *scene, paged::lookAlong()), truth, "paged.optimizer"));
+    const osg::ref_ptr<osg::Image> shown = paged::settle(_viewer, *scene, paged::lookAlong());
+    EXPECT_EQ(paged::countOf(*scene, "textures.resident"), 4.0);
+    EXPECT_TRUE(Exact(shown, truth, "paged.optimizer"));
 }
 
 TEST_F(PagedFaultsGLTest, twoContextsShowTheSame)
