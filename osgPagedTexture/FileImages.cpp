@@ -74,15 +74,35 @@ void setNumber(osg::Image& image, std::size_t number)
 
 } // namespace
 
+osg::ref_ptr<osg::Image> makeKeptStandIn(const std::string& name, bool translucent)
+{
+    // One block: the optimizer puts nothing that is compressed into an atlas of textures.
+    constexpr GLenum Dxt1 = 0x83F0, Dxt5 = 0x83F3;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(4, 4, 1, translucent ? Dxt5 : Dxt1, GL_UNSIGNED_BYTE);
+    image->setInternalTextureFormat(GLint(translucent ? Dxt5 : Dxt1));
+    std::memset(image->data(), 0, image->getTotalSizeInBytes());
+    if (translucent)
+        image->data()[0] = image->data()[1] = 128; // Alpha of all texels.
+    image->setFileName(name);
+    image->setWriteHint(osg::Image::EXTERNAL_FILE);
+    return image;
+}
+
+namespace
+{
+
+/// Of one grey texel, which readers can make a texture of.
 osg::ref_ptr<osg::Image> makeStandIn(const std::string& name, bool translucent)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(1, 1, 1, translucent ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE);
     std::memset(image->data(), 128, image->getTotalSizeInBytes());
     image->setFileName(name);
-    image->setWriteHint(osg::Image::EXTERNAL_FILE);
     return image;
 }
+
+} // namespace
 
 FileImages::FileImages() : _outer(threadImages)
 {

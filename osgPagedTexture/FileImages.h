@@ -57,7 +57,7 @@ private:
     std::deque<Found> _found;
 };
 
-/// Of one grey texel, translucent or not, written to files as its name alone.
-osg::ref_ptr<osg::Image> makeStandIn(const std::string& name, bool translucent);
+/// What a paged texture has as its image: translucent or not, written to files as its name alone.
+osg::ref_ptr<osg::Image> makeKeptStandIn(const std::string& name, bool translucent);
 
 } // namespace osgPagedTexture

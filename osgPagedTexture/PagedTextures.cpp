@@ -176,7 +176,7 @@ private:
 
     void give(osg::Texture2D& texture, const PagedImage& image, const std::string& name)
     {
-        texture.setImage(makeStandIn(name, image.translucent));
+        texture.setImage(makeKeptStandIn(name, image.translucent));
         texture.setSubloadCallback(new PagedSubload(_pager, _pager->add(image)));
     }
 

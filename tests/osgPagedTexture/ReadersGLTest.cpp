@@ -178,6 +178,7 @@ TEST_F(ReadersGLTest, parametersOfTheModelsTexturesStay)
     EXPECT_EQ(paged->getFilter(osg::Texture::MAG_FILTER), osg::Texture::NEAREST);
     EXPECT_EQ(paged->getMaxAnisotropy(), 4.0f);
     EXPECT_EQ(paged->getBorderColor(), osg::Vec4d(1.0, 0.5, 0.25, 1.0));
+    EXPECT_FALSE(paged->getImage()->isImageTranslucent());
     EXPECT_EQ(paged->getImage()->getFileName(), picture) << "so that it is written to files";
 }
 
