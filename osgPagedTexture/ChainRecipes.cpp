@@ -8,21 +8,28 @@
 namespace osgPagedTexture
 {
 
+bool canMake(BlockFormat format)
+{
+    return !isBlocked(format);
+}
+
 BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compression compression,
                       const ContextAbilities& abilities)
 {
-    const bool compresses = false && compression != Compression::None;
+    const bool compresses = compression != Compression::None;
     // Fixed-function texture environments take alpha from formats that are named after it alone,
     // so that two channels can't stand for grey and alpha.
     const bool isGrey = channels < 3 && !translucent;
     if (isNormalMap)
         return BlockFormat::RGBA8;
+    const BlockFormat blocks = translucent ? BlockFormat::BC3 : BlockFormat::BC1;
     if (isGrey)
-        return compresses && abilities.rgtc ? BlockFormat::BC4 : BlockFormat::R8;
-    if (compression == Compression::Best && abilities.bptc)
+        return compresses && abilities.rgtc && canMake(BlockFormat::BC4) ? BlockFormat::BC4
+                                                                         : BlockFormat::R8;
+    if (compression == Compression::Best && abilities.bptc && canMake(BlockFormat::BC7))
         return BlockFormat::BC7;
-    if (compresses && abilities.s3tc)
-        return translucent ? BlockFormat::BC3 : BlockFormat::BC1;
+    if (compresses && abilities.s3tc && canMake(blocks))
+        return blocks;
     return BlockFormat::RGBA8; // Drivers keep RGB so, too.
 }
 
@@ -67,15 +74,20 @@ Pixels halved(const Pixels& pixels, int width, int height)
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < pixels.channels; ++c)
             {
-                const int x0 = std::min(2 * x, pixels.width - 1), x1 = std::min(2 * x + 1, pixels.width - 1);
-                const int y0 = std::min(2 * y, pixels.height - 1), y1 = std::min(2 * y + 1, pixels.height - 1);
-                const auto at = [&](int u, int v) { return int(pixels.row(v)[u * pixels.channels + c]); };
-                half.row(y)[x * pixels.channels + c] = std::uint8_t((at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1) + 2) / 4);
+                const int x0 = std::min(2 * x, pixels.width - 1),
+                          x1 = std::min(2 * x + 1, pixels.width - 1);
+                const int y0 = std::min(2 * y, pixels.height - 1),
+                          y1 = std::min(2 * y + 1, pixels.height - 1);
+                const auto at = [&](int u, int v)
+                { return int(pixels.row(v)[u * pixels.channels + c]); };
+                half.row(y)[x * pixels.channels + c] =
+                    std::uint8_t((at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1) + 2) / 4);
             }
     return half;
 }
 
-MipChain plainChain(Pixels pixels, BlockFormat format, int firstLevel, int fullWidth, int fullHeight)
+MipChain plainChain(Pixels pixels, BlockFormat format, int firstLevel, int fullWidth,
+                    int fullHeight)
 {
     MipChain chain;
     chain.format = format;
@@ -93,7 +105,8 @@ MipChain plainChain(Pixels pixels, BlockFormat format, int firstLevel, int fullW
 
 } // namespace
 
-std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap, EncodeQuality quality)
+std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap,
+                                             EncodeQuality quality)
 {
     auto recipe = std::make_shared<ChainRecipe>();
     recipe->settings = formatName(format) + (isNormalMap ? " normals" : " colour") + " quality " +

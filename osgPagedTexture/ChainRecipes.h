@@ -12,6 +12,9 @@ namespace osgPagedTexture
 
 struct ContextAbilities;
 
+/// Whether recipeFor() has a recipe for a format.
+bool canMake(BlockFormat format);
+
 /// The format for a picture of so many channels, of what GL has.
 BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compression compression,
                       const ContextAbilities& abilities);

@@ -48,11 +48,24 @@ std::vector<unsigned char> tgaOf(const osg::Image& image)
     const int width = image.s(), height = image.t();
     const GLenum format = image.getPixelFormat();
     const int channels = channelsOf(format);
-    std::vector<unsigned char> file = {
-        0, 0, static_cast<unsigned char>(channels == 1 ? 3 : 2), 0, 0, 0, 0, 0, 0, 0, 0, 0,
-        static_cast<unsigned char>(width), static_cast<unsigned char>(width >> 8),
-        static_cast<unsigned char>(height), static_cast<unsigned char>(height >> 8),
-        static_cast<unsigned char>(8 * channels), static_cast<unsigned char>(channels == 4 ? 8 : 0)};
+    std::vector<unsigned char> file = {0,
+                                       0,
+                                       static_cast<unsigned char>(channels == 1 ? 3 : 2),
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       0,
+                                       static_cast<unsigned char>(width),
+                                       static_cast<unsigned char>(width >> 8),
+                                       static_cast<unsigned char>(height),
+                                       static_cast<unsigned char>(height >> 8),
+                                       static_cast<unsigned char>(8 * channels),
+                                       static_cast<unsigned char>(channels == 4 ? 8 : 0)};
     file.reserve(file.size() + std::size_t(width) * height * channels);
     for (int y = 0; y < height; ++y)
     {

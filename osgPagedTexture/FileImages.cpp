@@ -59,7 +59,7 @@ private:
 /// Formats that are on the GPU as they are in the file, that move, or that are no pictures.
 bool isLeftAlone(const std::string& extension)
 {
-    static const char* const extensions[] = {"dds", "ktx",  "ktx2", "pvr", "gif", "avi", "mp4",
+    static const char* const extensions[] = {"dds", "ktx",  "ktx2", "pvr", "gif", "avi",  "mp4",
                                              "mpg", "mpeg", "mov",  "ogv", "mkv", "webm", "flv"};
     return std::find(std::begin(extensions), std::end(extensions), extension) !=
            std::end(extensions);
@@ -130,8 +130,7 @@ osg::ref_ptr<const osgDB::Options> FileImages::optionsFor(const osgDB::Options* 
     return own;
 }
 
-osg::ref_ptr<osg::Image> FileImages::standIn(const std::string& name,
-                                             const osgDB::Options* options)
+osg::ref_ptr<osg::Image> FileImages::standIn(const std::string& name, const osgDB::Options* options)
 {
     if (isLeftAlone(osgDB::getLowerCaseFileExtension(name)))
         return nullptr;

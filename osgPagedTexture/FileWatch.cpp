@@ -81,7 +81,8 @@ std::vector<std::string> FileWatch::takeChanged()
 void FileWatch::run()
 {
     std::unique_lock<std::mutex> lock(_mutex);
-    while (!_wake.wait_for(lock, std::chrono::duration<double>(_interval), [this] { return _ends; }))
+    while (
+        !_wake.wait_for(lock, std::chrono::duration<double>(_interval), [this] { return _ends; }))
     {
         std::vector<std::string> files;
         for (const auto& each : _files)

@@ -11,8 +11,8 @@ namespace osgPagedTexture
 /// What OpenGL calls a format.
 struct GlFormat
 {
-    GLenum internal; ///< Sized.
-    GLenum layout;   ///< GL_RED to GL_RGBA; of plain formats, as they are uploaded.
+    GLenum internal;  ///< Sized.
+    GLenum layout;    ///< GL_RED to GL_RGBA; of plain formats, as they are uploaded.
     GLint swizzle[4]; ///< So that shaders and texture environments see grey as grey.
 };
 

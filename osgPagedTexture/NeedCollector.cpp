@@ -97,8 +97,8 @@ private:
         if (attribute.getType() != osg::StateAttribute::TEXTURE)
             return;
         auto& textures = inherited.textures;
-        textures.erase(std::remove_if(textures.begin(), textures.end(), [unit](const Bound& bound)
-                                      { return bound.unit == unit; }),
+        textures.erase(std::remove_if(textures.begin(), textures.end(),
+                                      [unit](const Bound& bound) { return bound.unit == unit; }),
                        textures.end());
         const auto* flat = dynamic_cast<const osg::Texture2D*>(&attribute);
         const auto* paged =
@@ -172,7 +172,8 @@ private:
 class SurfaceFinder : public osg::NodeVisitor
 {
 public:
-    explicit SurfaceFinder(SurfaceCache& cache) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _cache(cache)
+    explicit SurfaceFinder(SurfaceCache& cache)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _cache(cache)
     {
     }
     void apply(osg::Drawable& drawable) override { _cache.get(drawable, 0); }

@@ -97,8 +97,8 @@ osg::ref_ptr<osg::Node> makeGraph(double width, double height, const Pager& page
     text->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f));
     text->setText(wordsOf(pager));
     osg::ref_ptr<osg::Geode> geode = new osg::Geode;
-    geode->addDrawable(makeBars(pager.getUploadTimes().getValues(),
-                                pager.getSettings().uploadMilliseconds));
+    geode->addDrawable(
+        makeBars(pager.getUploadTimes().getValues(), pager.getSettings().uploadMilliseconds));
     geode->addDrawable(text);
     osg::ref_ptr<osg::Projection> projection =
         new osg::Projection(osg::Matrixd::ortho2D(0.0, width, 0.0, height));
@@ -118,8 +118,7 @@ void PagedGraph::cull(osgUtil::CullVisitor& visitor, const Pager& pager)
     const osg::Viewport* viewport = visitor.getViewport();
     if (!viewport)
         return;
-    const osg::ref_ptr<osg::Node> graph =
-        makeGraph(viewport->width(), viewport->height(), pager);
+    const osg::ref_ptr<osg::Node> graph = makeGraph(viewport->width(), viewport->height(), pager);
     {
         std::lock_guard<std::mutex> lock(_mutex);
         _kept.push_back(graph);

@@ -223,8 +223,14 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
     if (named > maxPlanned)
         plan.entries.push_back({std::to_string(named - maxPlanned) + " more textures",
                                 Decision::Folded, "only the first ones are listed"});
-    for (const auto& [name, reason] : _left)
-        plan.entries.push_back({"texture '" + name + "'", Decision::Folded, "not paged: " + reason});
+    std::vector<std::pair<std::string, std::string>> notPaged;
+    {
+        std::lock_guard<std::mutex> lock(_views->mutex);
+        notPaged = _left;
+    }
+    for (const auto& [name, reason] : notPaged)
+        plan.entries.push_back(
+            {"texture '" + name + "'", Decision::Folded, "not paged: " + reason});
     const FrameTimes times = _pager->getUploadTimes(), bytes = _pager->getUploadBytes();
     plan.counts = {{"textures", double(statistics.textures)},
                    {"textures.inView", double(statistics.inView)},

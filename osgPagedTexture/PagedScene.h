@@ -28,13 +28,14 @@ class FileImages;
 class Pager;
 class SurfaceCache;
 
-/// A scene whose 2D textures are read, compressed and uploaded in the background, as fine as what is
-/// in view needs and as its share of memory allows.
+/// A scene whose 2D textures are read, compressed and uploaded in the background, as fine as what
+/// is in view needs and as its share of memory allows.
 ///
 /// The model keeps its osg::Texture2D objects with all of their parameters. Each starts as one grey
-/// texel, then as a small preview, then gets finer; what is no longer needed goes when the memory is
-/// short. What its PagedLOD objects read later is paged, too. Textures that fit all together are loaded whole, when they come into view. Nothing is read
-/// and no thread started before the first frame that shows a texture.
+/// texel, then as a small preview, then gets finer; what is no longer needed goes when the memory
+/// is short. What its PagedLOD objects read later is paged, too. Textures that fit all together are
+/// loaded whole, when they come into view. Nothing is read and no thread started before the first
+/// frame that shows a texture.
 class OSGPAGEDTEXTURE_EXPORT PagedScene : public osg::Group, public osgMultiRender::Planned
 {
 public:

@@ -33,12 +33,12 @@ enum class PagedShow
 /// All knobs of a PagedScene.
 struct PagedSettings
 {
-    double gpuMegabytes = 256.0;    ///< Of texels in each context.
-    double cpuMegabytes = 256.0;    ///< Of pictures and chains on their way.
+    double gpuMegabytes = 256.0;     ///< Of texels in each context.
+    double cpuMegabytes = 256.0;     ///< Of pictures and chains on their way.
     double uploadMilliseconds = 2.0; ///< Of a frame, CPU time of the draw thread.
-    unsigned int previewSide = 32;  ///< Texels of what is shown first.
-    double prefetchSeconds = 1.0;   ///< How far the motion of the eye is looked ahead.
-    unsigned int threads = 0;       ///< Of workers; 0: one less than the machine has.
+    unsigned int previewSide = 32;   ///< Texels of what is shown first.
+    double prefetchSeconds = 1.0;    ///< How far the motion of the eye is looked ahead.
+    unsigned int threads = 0;        ///< Of workers; 0: one less than the machine has.
     Compression compression = Compression::Blocks;
     EncodeQuality quality = EncodeQuality::Normal;
     std::string cache = "default"; ///< Folder, "default" for the user's, "off".

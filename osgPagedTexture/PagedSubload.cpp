@@ -35,7 +35,8 @@ PagedSubload::~PagedSubload()
 bool PagedSubload::textureObjectValid(const osg::Texture2D& texture, osg::State& state) const
 {
     if (_pager->waits())
-        _pager->waitForAll(state, state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
+        _pager->waitForAll(state,
+                           state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
     const osg::Texture::TextureObject* object = texture.getTextureObject(state.getContextID());
     return object && object->id() == _pager->getShown(_texture, *_state, state).name;
 }
@@ -44,7 +45,8 @@ osg::ref_ptr<osg::Texture::TextureObject>
 PagedSubload::generateTextureObject(const osg::Texture2D& texture, osg::State& state) const
 {
     if (_pager->waits())
-        _pager->waitForAll(state, state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
+        _pager->waitForAll(state,
+                           state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0);
     const Pager::Shown shown = _pager->getShown(_texture, *_state, state);
     return new osg::Texture::TextureObject(const_cast<osg::Texture2D*>(&texture), shown.name,
                                            GL_TEXTURE_2D);

@@ -97,7 +97,7 @@ public:
         osg::Texture2D* flat = dynamic_cast<osg::Texture2D*>(&texture);
         if (flat && dynamic_cast<const PagedSubload*>(flat->getSubloadCallback()))
             return; // Another scene's, or this one's already.
-        const std::string reason = !flat                ? "it is not a 2D texture"
+        const std::string reason = !flat               ? "it is not a 2D texture"
                                    : !flat->getImage() ? std::string()
                                                        : obstacle(*flat);
         if (!flat || !reason.empty())
@@ -157,12 +157,11 @@ private:
     void giveEmbedded(osg::Texture2D& texture, const osg::Image& image)
     {
         std::string reason = EmbeddedImages::obstacle(image);
-        const std::string file =
-            reason.empty() ? _pager->getEmbedded().keep(image) : std::string();
+        const std::string file = reason.empty() ? _pager->getEmbedded().keep(image) : std::string();
         if (file.empty())
         {
-            left.push_back({image.getFileName(),
-                            reason.empty() ? "it can't be kept on disk" : reason});
+            left.push_back(
+                {image.getFileName(), reason.empty() ? "it can't be kept on disk" : reason});
             return;
         }
         ImageInfo info;

@@ -183,9 +183,9 @@ private:
     PagedSettings _settings;
     std::deque<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
-    ContextAbilities _abilities; ///< What all contexts can do.
+    ContextAbilities _abilities;                                  ///< What all contexts can do.
     std::map<std::pair<std::string, bool>, unsigned int> _byFile; ///< And whether normals.
-    std::map<RequestId, std::vector<unsigned int>> _requests; ///< Equal ones share a number.
+    std::map<RequestId, std::vector<unsigned int>> _requests;     ///< Equal ones share a number.
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;

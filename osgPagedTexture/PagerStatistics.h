@@ -12,13 +12,13 @@ namespace osgPagedTexture
 /// Of the uploads of a context.
 struct UploadStatistics
 {
-    std::uint64_t bytes = 0;         ///< On the GPU now, of all textures, those in the making too.
+    std::uint64_t bytes = 0; ///< On the GPU now, of all textures, those in the making too.
     std::uint64_t peakBytes = 0;
-    std::uint64_t uploaded = 0;      ///< So far.
-    std::uint64_t lastUploaded = 0;  ///< In the last frame.
-    double lastMilliseconds = 0.0;   ///< CPU time of the last frame's uploads.
-    std::size_t waiting = 0;         ///< Jobs.
-    std::uint64_t waitingBytes = 0;  ///< Of their chains.
+    std::uint64_t uploaded = 0;     ///< So far.
+    std::uint64_t lastUploaded = 0; ///< In the last frame.
+    double lastMilliseconds = 0.0;  ///< CPU time of the last frame's uploads.
+    std::size_t waiting = 0;        ///< Jobs.
+    std::uint64_t waitingBytes = 0; ///< Of their chains.
 };
 
 /// Of a PagedScene.

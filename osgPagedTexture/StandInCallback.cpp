@@ -27,27 +27,32 @@ Result StandInCallback::openArchive(const std::string& name,
 
 Result StandInCallback::readObject(const std::string& name, const osgDB::Options* options)
 {
-    return _next ? _next->readObject(name, options) : osgDB::ReadFileCallback::readObject(name, options);
+    return _next ? _next->readObject(name, options)
+                 : osgDB::ReadFileCallback::readObject(name, options);
 }
 
 Result StandInCallback::readHeightField(const std::string& name, const osgDB::Options* options)
 {
-    return _next ? _next->readHeightField(name, options) : osgDB::ReadFileCallback::readHeightField(name, options);
+    return _next ? _next->readHeightField(name, options)
+                 : osgDB::ReadFileCallback::readHeightField(name, options);
 }
 
 Result StandInCallback::readNode(const std::string& name, const osgDB::Options* options)
 {
-    return _next ? _next->readNode(name, options) : osgDB::ReadFileCallback::readNode(name, options);
+    return _next ? _next->readNode(name, options)
+                 : osgDB::ReadFileCallback::readNode(name, options);
 }
 
 Result StandInCallback::readShader(const std::string& name, const osgDB::Options* options)
 {
-    return _next ? _next->readShader(name, options) : osgDB::ReadFileCallback::readShader(name, options);
+    return _next ? _next->readShader(name, options)
+                 : osgDB::ReadFileCallback::readShader(name, options);
 }
 
 Result StandInCallback::readScript(const std::string& name, const osgDB::Options* options)
 {
-    return _next ? _next->readScript(name, options) : osgDB::ReadFileCallback::readScript(name, options);
+    return _next ? _next->readScript(name, options)
+                 : osgDB::ReadFileCallback::readScript(name, options);
 }
 
 } // namespace osgPagedTexture

@@ -74,15 +74,14 @@ public:
         if (std::max({a, b, c}) >= count)
             return;
         const glm::dvec3 p = pointOf(*places, a);
-        const glm::dvec3 normal =
-            glm::cross(pointOf(*places, b) - p, pointOf(*places, c) - p);
+        const glm::dvec3 normal = glm::cross(pointOf(*places, b) - p, pointOf(*places, c) - p);
         const double area = 0.5 * glm::length(normal);
         if (!(area > 0.0) || !std::isfinite(area))
             return;
         const glm::dvec3 q = pointOf(*coordinates, a);
-        const double uv = 0.5 * std::abs(glm::cross(pointOf(*coordinates, b) - q,
-                                                    pointOf(*coordinates, c) - q)
-                                             .z);
+        const double uv =
+            0.5 *
+            std::abs(glm::cross(pointOf(*coordinates, b) - q, pointOf(*coordinates, c) - q).z);
         _area += area;
         addNormal(normal / (2.0 * area));
         const double step = (std::log2(uv / area) + Powers / 2.0) * StepsPerPower;
@@ -119,7 +118,7 @@ private:
         _leastCosine = std::min(_leastCosine, std::abs(glm::dot(normal, _axis)));
     }
 
-    std::array<double, std::size_t(Powers)* StepsPerPower> _areas{};
+    std::array<double, std::size_t(Powers) * StepsPerPower> _areas{};
     double _area = 0.0;
     double _below = 0.0;
     glm::dvec3 _axis{0.0};

@@ -13,7 +13,8 @@ namespace osgPagedTexture
 class OSGPAGEDTEXTURE_EXPORT UploadPace
 {
 public:
-    static constexpr std::uint64_t LeastPiece = 16 << 10; ///< Bytes; each piece has a cost of its own.
+    static constexpr std::uint64_t LeastPiece = 16
+                                                << 10; ///< Bytes; each piece has a cost of its own.
     static constexpr std::uint64_t LargestPiece = 4 << 20;
 
     /// Begins a frame that may take that many milliseconds.

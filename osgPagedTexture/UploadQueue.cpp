@@ -27,10 +27,9 @@ public:
         _state.unbindPixelBufferObject();
         glPushClientAttrib(GL_CLIENT_PIXEL_STORE_BIT);
         glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-        for (const GLenum name :
-             {GLenum(GL_UNPACK_SWAP_BYTES), GLenum(GL_UNPACK_LSB_FIRST),
-              GLenum(GL_UNPACK_ROW_LENGTH), GLenum(GL_UNPACK_SKIP_ROWS),
-              GLenum(GL_UNPACK_SKIP_PIXELS)})
+        for (const GLenum name : {GLenum(GL_UNPACK_SWAP_BYTES), GLenum(GL_UNPACK_LSB_FIRST),
+                                  GLenum(GL_UNPACK_ROW_LENGTH), GLenum(GL_UNPACK_SKIP_ROWS),
+                                  GLenum(GL_UNPACK_SKIP_PIXELS)})
             glPixelStorei(name, 0);
     }
     ~UnpackScope()
@@ -69,7 +68,8 @@ UploadQueue::~UploadQueue()
         textures.push_back(_fault);
     if (_build)
         textures.push_back(_build->texture.name);
-    osg::get<ContextTextures>(_contextID)->doom(textures, _buffer ? std::vector<GLuint>{_buffer} : std::vector<GLuint>());
+    osg::get<ContextTextures>(_contextID)
+        ->doom(textures, _buffer ? std::vector<GLuint>{_buffer} : std::vector<GLuint>());
 }
 
 void UploadQueue::push(UploadJob job)
@@ -144,9 +144,9 @@ void UploadQueue::begin(osg::State& state)
     {
         reset();
         _gl = state.get<osg::GLExtensions>();
-        osg::setGLExtensionFuncPtr(_copyImage, "glCopyImageSubData", "glCopyImageSubDataEXT",
-                                   _gl->glVersion >= 4.3f ||
-                                       osg::isGLExtensionSupported(_contextID, "GL_ARB_copy_image"));
+        osg::setGLExtensionFuncPtr(
+            _copyImage, "glCopyImageSubData", "glCopyImageSubDataEXT",
+            _gl->glVersion >= 4.3f || osg::isGLExtensionSupported(_contextID, "GL_ARB_copy_image"));
         GLint side = 0;
         glGetIntegerv(MaxTextureSize, &side);
         std::lock_guard<std::mutex> lock(_mutex);
@@ -174,7 +174,8 @@ void UploadQueue::takeOrders()
     for (UploadJob& job : ordered)
     {
         const unsigned int texture = job.texture;
-        _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(), [texture](const UploadJob& each)
+        _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(),
+                                   [texture](const UploadJob& each)
                                    { return each.texture == texture; }),
                     _jobs.end());
         if (_build && _build->job.texture == texture)
@@ -212,8 +213,8 @@ bool UploadQueue::allocate(Texture& texture) const
     const int height = levelSide(texture.height, texture.level);
     glGenTextures(1, &texture.name);
     glBindTexture(GL_TEXTURE_2D, texture.name);
-    while (glGetError() != GL_NO_ERROR)
-        ; // Not ours.
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i)
+        continue; // Errors before are not ours.
     if (_gl->isTextureStorageEnabled && _gl->glTexStorage2D)
         _gl->glTexStorage2D(GL_TEXTURE_2D, levels, format.internal, width, height);
     else
@@ -327,9 +328,8 @@ bool UploadQueue::goOn(std::uint64_t piece)
         const int width = levelSide(chain.width, level), height = levelSide(chain.height, level);
         const std::uint64_t rowBytes = levelBytes(chain.format, width, 1);
         const int left = blockRows(chain.format, height) - _build->row;
-        const int rows =
-            int(std::clamp<std::uint64_t>((piece - std::min(piece, done)) / rowBytes, done ? 0 : 1,
-                                          std::uint64_t(left)));
+        const int rows = int(std::clamp<std::uint64_t>((piece - std::min(piece, done)) / rowBytes,
+                                                       done ? 0 : 1, std::uint64_t(left)));
         if (rows == 0)
             return false;
         uploadRows(chain.levels[_build->index], level, _build->row, rows);
@@ -441,8 +441,8 @@ GLuint UploadQueue::faultName(osg::State& state)
             for (int x = 0; x < side; ++x)
             {
                 const bool isMarked = side < 4 || ((x * 8 / side / 2 + y * 8 / side / 2) & 1);
-                for (const int value : {isMarked ? 255 : 96, isMarked ? 0 : 96,
-                                        isMarked ? 255 : 96, 255})
+                for (const int value :
+                     {isMarked ? 255 : 96, isMarked ? 0 : 96, isMarked ? 255 : 96, 255})
                     texels.push_back(std::uint8_t(value));
             }
         glTexImage2D(GL_TEXTURE_2D, level, GL_RGBA, side, side, 0, GL_RGBA, GL_UNSIGNED_BYTE,

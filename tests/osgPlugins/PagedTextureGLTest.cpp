@@ -36,7 +36,9 @@ protected:
             for (int x = 0; x < 128; ++x)
                 for (int c = 0; c < 3; ++c)
                     wall->data(unsigned(x), unsigned(y))[c] =
-                        static_cast<unsigned char>(c == 0 ? 2 * x : (x / 8 + y / 8) % 2 ? 220 : 40);
+                        static_cast<unsigned char>(c == 0                ? 2 * x
+                                                   : (x / 8 + y / 8) % 2 ? 220
+                                                                         : 40);
         ASSERT_TRUE(osgDB::writeImageFile(*wall, _folder.file("wall.png")));
         _model = _folder.write("thing.iv", Thing);
     }
