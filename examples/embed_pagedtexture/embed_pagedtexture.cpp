@@ -102,7 +102,9 @@ int main(int argc, char** argv)
     scene->setSettings(settings);
     for (int i = 1; i < arguments.argc(); ++i)
         if (!scene->readModel(arguments[i]).validNode())
-            return std::fprintf(stderr, "embed_pagedtexture: no model could be read\n"), 1;
+            return std::fprintf(stderr, "embed_pagedtexture: '%s' could not be read\n",
+                                arguments[i]),
+                   1;
     if (arguments.argc() < 2)
         scene = osgPagedTexture::install(*makeGallery(), settings);
     viewer.setSceneData(scene);
