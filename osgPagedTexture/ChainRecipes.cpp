@@ -3,14 +3,22 @@
 
 #include <osgPagedTexture/UploadQueue.h>
 
+#include <algorithm>
 #include <cstdlib>
+
+#if __has_include(<osgPagedTexture/MakeMipChain.h>)
+#include <osgPagedTexture/MakeMipChain.h>
+#define OSGPAGEDTEXTURE_ENCODES 1
+#else
+#define OSGPAGEDTEXTURE_ENCODES 0
+#endif
 
 namespace osgPagedTexture
 {
 
 bool canMake(BlockFormat format)
 {
-    return !isBlocked(format);
+    return OSGPAGEDTEXTURE_ENCODES || !isBlocked(format);
 }
 
 BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compression compression,
@@ -32,6 +40,39 @@ BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compress
         return blocks;
     return BlockFormat::RGBA8; // Drivers keep RGB so, too.
 }
+
+#if OSGPAGEDTEXTURE_ENCODES
+
+namespace
+{
+
+ChainSettings chainSettings(BlockFormat format, bool isNormalMap, PagedQuality quality)
+{
+    ChainSettings settings;
+    settings.use = isNormalMap ? TextureUse::NormalMap : TextureUse::Color;
+    settings.format = format;
+    settings.quality = quality == PagedQuality::Fast   ? EncodeQuality::Fastest
+                       : quality == PagedQuality::Best ? EncodeQuality::Best
+                                                       : EncodeQuality::Normal;
+    return settings;
+}
+
+} // namespace
+
+std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap,
+                                             PagedQuality quality)
+{
+    auto recipe = std::make_shared<ChainRecipe>();
+    recipe->settings = formatName(format) + (isNormalMap ? " normals" : " colour") + " quality " +
+                       std::to_string(int(quality));
+    recipe->linearLight = !isNormalMap;
+    recipe->make = [settings = chainSettings(format, isNormalMap, quality)](
+                       const Pixels& pixels, int firstLevel, int width, int height)
+    { return makeMipChain(pixels, settings, width, height, firstLevel); };
+    return recipe;
+}
+
+#else
 
 namespace
 {
@@ -106,16 +147,17 @@ MipChain plainChain(Pixels pixels, BlockFormat format, int firstLevel, int fullW
 } // namespace
 
 std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap,
-                                             EncodeQuality quality)
+                                             PagedQuality quality)
 {
     auto recipe = std::make_shared<ChainRecipe>();
-    recipe->settings = formatName(format) + (isNormalMap ? " normals" : " colour") + " quality " +
-                       std::to_string(int(quality));
+    recipe->settings = formatName(format) + (isNormalMap ? " normals" : " colour") + " box";
     recipe->linearLight = !isNormalMap;
     recipe->make = [format](Pixels pixels, int firstLevel, int width, int height)
     { return plainChain(std::move(pixels), format, firstLevel, width, height); };
     return recipe;
 }
+
+#endif
 
 std::string cacheFolder(const std::string& setting)
 {

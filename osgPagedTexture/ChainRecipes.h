@@ -21,7 +21,7 @@ BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compress
 
 /// How pictures become chains of a format. Equal arguments give equal chains.
 std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap,
-                                             EncodeQuality quality);
+                                             PagedQuality quality);
 
 /// "~/.cache/osgPagedTexture" as the system has it, for "default"; empty for "off".
 std::string cacheFolder(const std::string& setting);

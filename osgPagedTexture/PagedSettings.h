@@ -16,7 +16,7 @@ enum class Compression
 };
 
 /// How much time the encoder takes for a better picture.
-enum class EncodeQuality
+enum class PagedQuality
 {
     Fast,
     Normal,
@@ -40,7 +40,7 @@ struct PagedSettings
     double prefetchSeconds = 1.0;    ///< How far the motion of the eye is looked ahead.
     unsigned int threads = 0;        ///< Of workers; 0: one less than the machine has.
     Compression compression = Compression::Blocks;
-    EncodeQuality quality = EncodeQuality::Normal;
+    PagedQuality quality = PagedQuality::Normal;
     std::string cache = "default"; ///< Folder, "default" for the user's, "off".
     double cacheMegabytes = 4096.0;
     bool wait = false;     ///< Frames wait for what they need: for pictures, not for moving about.

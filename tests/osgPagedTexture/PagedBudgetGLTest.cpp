@@ -85,7 +85,8 @@ TEST_F(PagedBudgetGLTest, alongAFlightMemoryStaysWithinTheBudgetAndOnePage)
     const double page = 256 * 256 * 4 * 4 / 3.0;
     const double budget = 1048576.0;
     const std::uint64_t before = bytesInGL(*osg::ref_ptr<PagedScene>(new PagedScene), {});
-    const osg::ref_ptr<PagedScene> scene = paged::read(city, "gpu=1,cpu=8,upload=20");
+    const osg::ref_ptr<PagedScene> scene =
+        paged::read(city, "gpu=1,cpu=8,upload=20,compression=none");
     bool isFull = false, isChanged = false;
     double last = 0.0, most = 0.0;
     for (int i = 0; i < 250; ++i)
@@ -153,7 +154,7 @@ TEST_F(PagedBudgetGLTest, thousandsOfLoadsAndEvictionsLeaveNothingBehind)
     const std::string city = paged::writeCity(_folder, 2, 2, 64);
     const std::uint64_t before = bytesInGL(*osg::ref_ptr<PagedScene>(new PagedScene), {});
     {
-        const osg::ref_ptr<PagedScene> scene = paged::read(city, "gpu=0.02");
+        const osg::ref_ptr<PagedScene> scene = paged::read(city, "gpu=0.02,compression=none");
         for (int i = 0; i < 20; ++i)
             paged::settle(_viewer, *scene, paged::lookAlong({0.0, i % 2 ? 0.0 : 8.0, 0.0}));
     }

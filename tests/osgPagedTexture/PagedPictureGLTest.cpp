@@ -32,7 +32,7 @@ TEST_F(PagedPictureGLTest, atRestThePictureIsThatOfTexturesThatAreThereWhole)
     OSGKITS_NEED_GL(_viewer);
     const std::string city = paged::writeCity(_folder, 4, 3, 512);
     // Encoded alike: levels that are read from a reduced picture are rounded in other places.
-    const std::string cache = ",cache=" + _folder.file("cache");
+    const std::string cache = ",compression=none,cache=" + _folder.file("cache");
     const osg::ref_ptr<PagedScene> whole = paged::read(city, "gpu=256" + cache);
     const osg::ref_ptr<PagedScene> parts = paged::read(city, "gpu=6" + cache);
     paged::settle(_viewer, *whole, paged::lookAlong(osg::Vec3d(0.0, -30.0, 0.0)));
@@ -66,6 +66,7 @@ TEST_F(PagedPictureGLTest, sidesThatAreNoPowersOfTwoShowTheSameToo)
     }
     osgPagedTexture::PagedSettings settings;
     settings.cache = "off";
+    settings.compression = osgPagedTexture::Compression::None;
     const osg::ref_ptr<PagedScene> whole = osgPagedTexture::install(
         *static_cast<osg::Group*>(model->clone(osg::CopyOp::DEEP_COPY_ALL)), settings);
     settings.gpuMegabytes = 0.5;
