@@ -12,16 +12,13 @@ namespace osgPagedTexture
 
 struct ContextAbilities;
 
-/// Whether recipeFor() has a recipe for a format.
-bool canMake(BlockFormat format);
-
 /// The format for a picture of so many channels, of what GL has.
 BlockFormat formatFor(int channels, bool translucent, bool isNormalMap, Compression compression,
                       const ContextAbilities& abilities);
 
 /// How pictures become chains of a format. Equal arguments give equal chains.
 std::shared_ptr<const ChainRecipe> recipeFor(BlockFormat format, bool isNormalMap,
-                                             PagedQuality quality);
+                                             EncodeQuality quality);
 
 /// "~/.cache/osgPagedTexture" as the system has it, for "default"; empty for "off".
 std::string cacheFolder(const std::string& setting);

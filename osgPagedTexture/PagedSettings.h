@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/BlockEncoder.h>
+
 #include <cstdint>
 #include <string>
 
@@ -13,14 +15,6 @@ enum class Compression
     Blocks, ///< BC1, BC3, BC4, BC5, where GL has them.
     Best,   ///< BC7 for colour where GL has it.
     None
-};
-
-/// How much time the encoder takes for a better picture.
-enum class PagedQuality
-{
-    Fast,
-    Normal,
-    Best
 };
 
 /// What is drawn of the textures.
@@ -40,7 +34,7 @@ struct PagedSettings
     double prefetchSeconds = 1.0;    ///< How far the motion of the eye is looked ahead.
     unsigned int threads = 0;        ///< Of workers; 0: one less than the machine has.
     Compression compression = Compression::Blocks;
-    PagedQuality quality = PagedQuality::Normal;
+    EncodeQuality quality = EncodeQuality::Normal;
     std::string cache = "default"; ///< Folder, "default" for the user's, "off".
     double cacheMegabytes = 4096.0;
     bool wait = false;     ///< Frames wait for what they need: for pictures, not for moving about.

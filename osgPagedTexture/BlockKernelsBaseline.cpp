@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/BlockKernels.h>
+
+#define OSGPAGEDTEXTURE_LANES 4
+#include "BlockLanes.inl"
+#include "ChannelKernel.inl"
+#include "ColorKernel.inl"
+#include "Mode6Kernel.inl"
+
+namespace osgPagedTexture
+{
+
+const BlockKernels baselineKernels = {encodeColor, encodeChannel, encodeMode6};
+
+} // namespace osgPagedTexture
