@@ -78,6 +78,24 @@ TEST_F(PagedPictureGLTest, sidesThatAreNoPowersOfTwoShowTheSameToo)
     EXPECT_EQ(paged::countOf(*parts, "levels.missing"), 0.0) << "no proof";
 }
 
+TEST_F(PagedPictureGLTest, inBlocksThePictureAtRestIsTheSameToo)
+{
+    OSGKITS_NEED_GL(_viewer);
+    const std::string city = paged::writeCity(_folder, 3, 3, 512);
+    for (const char* const blocks : {"compression=blocks", "compression=best"})
+    {
+        const std::string settings =
+            std::string(blocks) + ",cache=" + _folder.file(std::string("cache.") + blocks);
+        const osg::ref_ptr<PagedScene> whole = paged::read(city, settings);
+        const osg::ref_ptr<PagedScene> parts = paged::read(city, settings + ",gpu=0.8");
+        const auto expected = paged::settle(_viewer, *whole, paged::lookAlong({0, -4, 0}));
+        const auto actual = paged::settle(_viewer, *parts, paged::lookAlong({0, -4, 0}));
+        EXPECT_TRUE(Same(actual, expected, "paged.blocks")) << blocks;
+        EXPECT_EQ(paged::countOf(*parts, "levels.missing"), 0.0) << "no proof";
+        EXPECT_LT(paged::countOf(*parts, "gpu.bytes"), paged::countOf(*whole, "gpu.bytes"));
+    }
+}
+
 TEST_F(PagedPictureGLTest, waitingFramesAreTheSameAsThoseAtRest)
 {
     OSGKITS_NEED_GL(_viewer);
