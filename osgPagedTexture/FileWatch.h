@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgPagedTexture/Export.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace osgPagedTexture
+{
+
+/// Looks at files again and again, and tells which have new content. Its thread starts with the
+/// first file. Any thread may call it.
+class OSGPAGEDTEXTURE_EXPORT FileWatch
+{
+public:
+    explicit FileWatch(double intervalSeconds = 1.0);
+    ~FileWatch();
+    FileWatch(const FileWatch&) = delete;
+    FileWatch& operator=(const FileWatch&) = delete;
+
+    /// What the file holds now is known; counts how often it is asked for.
+    void add(const std::string& file);
+    void remove(const std::string& file);
+
+    /// Files that hold something else than before, each once a change, when writing has rested for
+    /// one interval. A file that is gone is no change; one that is back with other content is.
+    std::vector<std::string> takeChanged();
+
+private:
+    struct Stamp
+    {
+        std::int64_t time = 0;
+        std::uint64_t bytes = 0;
+        bool operator==(const Stamp& other) const
+        {
+            return time == other.time && bytes == other.bytes;
+        }
+    };
+    struct Watched
+    {
+        int users = 0;
+        Stamp known; ///< With the content that users have.
+        Stamp last;
+        std::uint64_t content = 0; ///< 0: never looked at.
+    };
+    static bool stampOf(const std::string& file, Stamp& stamp);
+    static std::uint64_t contentOf(const std::string& file);
+    void run();
+    void look(const std::string& file);
+
+    const double _interval;
+    std::mutex _mutex;
+    std::condition_variable _wake;
+    bool _ends = false;
+    std::map<std::string, Watched> _files;
+    std::vector<std::string> _changed;
+    std::thread _thread;
+};
+
+} // namespace osgPagedTexture

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/PagedOptions.h>
+
+#include <osgMultiRender/PseudoLoader.h>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+template <class Value> auto setterOf(Value PagedSettings::*member)
+{
+    return [member](PagedSettings& settings, const Value& value) { settings.*member = value; };
+}
+
+template <class Number>
+PagedOption number(const char* name, Number PagedSettings::*member, Number low, Number high,
+                   const char* help)
+{
+    return osgMultiRender::numberOption<PagedSettings>(name, help, low, high, member,
+                                                       setterOf(member));
+}
+
+template <class Value> struct Word
+{
+    const char* name;
+    Value value;
+};
+
+template <class Value>
+PagedOption choice(const char* name, Value PagedSettings::*member,
+                   const std::vector<Word<Value>>& words, const char* help)
+{
+    return osgMultiRender::wordOption<PagedSettings>(name, help, words, member, setterOf(member));
+}
+
+PagedOption flag(const char* name, bool PagedSettings::*member, const char* help)
+{
+    return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
+}
+
+PagedOption cacheOption()
+{
+    return {"cache", "default|off|<folder>",
+            "Where encoded textures are kept, so that a second start decodes nothing",
+            [](PagedSettings& settings, const std::string& text) -> std::string
+            {
+                if (text.empty())
+                    return "a folder needs a name; 'off' keeps nothing";
+                settings.cache = text;
+                return {};
+            },
+            [](const PagedSettings& settings) { return settings.cache; }};
+}
+
+/// As parseSettings() takes it for one word.
+std::string quoted(const std::string& value)
+{
+    std::string text = "'";
+    for (const char c : value)
+        text += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
+    return text + "'";
+}
+
+} // namespace
+
+const std::vector<PagedOption>& pagedOptions()
+{
+    using S = PagedSettings;
+    static const std::vector<PagedOption> options = {
+        number("gpu", &S::gpuMegabytes, 0.0, 1048576.0, "MiB of textures on the GPU"),
+        number("cpu", &S::cpuMegabytes, 0.0, 1048576.0,
+               "MiB of pictures and encoded textures on their way to it"),
+        number("upload", &S::uploadMilliseconds, 0.01, 1000.0,
+               "Milliseconds of a frame that uploads may take"),
+        number("preview", &S::previewSide, 1u, 1024u, "Texels of a side of what is shown first"),
+        number("prefetch", &S::prefetchSeconds, 0.0, 60.0,
+               "Seconds that the motion of the eye is looked ahead"),
+        number("threads", &S::threads, 0u, 256u,
+               "Threads that read and encode; 0: one less than the machine has"),
+        choice<Compression>("compression", &S::compression,
+                            {{"blocks", Compression::Blocks},
+                             {"best", Compression::Best},
+                             {"none", Compression::None}},
+                            "Texels on the GPU: BC1, BC3, BC4 and BC5; BC7 where GL has it; not "
+                            "compressed"),
+        choice<EncodeQuality>("quality", &S::quality,
+                              {{"fast", EncodeQuality::Fast},
+                               {"normal", EncodeQuality::Normal},
+                               {"fine", EncodeQuality::Fine},
+                               {"best", EncodeQuality::Best}},
+                              "How much time compression takes for a better picture"),
+        cacheOption(),
+        number("cachesize", &S::cacheMegabytes, 0.0, 1048576.0 * 64.0, "MiB of that folder"),
+        flag("wait", &S::wait,
+             "Frames wait for the textures that they need: for pictures, not for moving about"),
+        flag("reload", &S::reload, "Image files that change are read again"),
+        flag("degraded", &S::degraded, "What can be read of damaged image files is shown"),
+        flag("freeze", &S::freeze, "No texture comes or goes"),
+        choice<PagedShow>("show", &S::show,
+                          {{"picture", PagedShow::Picture}, {"levels", PagedShow::Levels}},
+                          "The textures, or a colour for how fine each of them is"),
+        flag("graph", &S::graph, "Shows times of uploads and memory over the picture"),
+        flag("keys", &S::keys, "Answers to keys in osgviewer"),
+    };
+    return options;
+}
+
+bool setPagedOption(PagedSettings& settings, const std::string& name, const std::string& value,
+                    std::string& error)
+{
+    return osgMultiRender::setOption(pagedOptions(), settings, name, value, error);
+}
+
+std::string formatPagedOptions(const PagedSettings& settings)
+{
+    const PagedSettings defaults;
+    std::string all;
+    for (const PagedOption& option : pagedOptions())
+    {
+        const std::string value = option.format(settings);
+        if (value != option.format(defaults))
+            all += (all.empty() ? "" : ",") + option.name + "=" + quoted(value);
+    }
+    return all;
+}
+
+std::vector<std::string> parsePagedOptions(PagedSettings& settings, const std::string& text)
+{
+    osgMultiRender::Settings parsed;
+    std::string error;
+    if (!osgMultiRender::parseSettings(text, parsed, error))
+        return {error};
+    std::vector<std::string> errors;
+    for (const auto& [name, value] : parsed)
+        if (!setPagedOption(settings, name, value, error))
+            errors.push_back(error);
+    return errors;
+}
+
+} // namespace osgPagedTexture

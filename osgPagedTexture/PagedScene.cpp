@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/PagedScene.h>
+
+#include <osgPagedTexture/FileImages.h>
+#include <osgPagedTexture/NeedCollector.h>
+#include <osgPagedTexture/PagedGraph.h>
+#include <osgPagedTexture/PagedKeys.h>
+#include <osgPagedTexture/PagedLods.h>
+#include <osgPagedTexture/PagedOptions.h>
+#include <osgPagedTexture/PagedTextures.h>
+#include <osgPagedTexture/Pager.h>
+
+#include <osg/GraphicsContext>
+#include <osg/Notify>
+#include <osg/observer_ptr>
+#include <osgDB/Registry>
+#include <osgGA/EventVisitor>
+#include <osgUtil/CullVisitor>
+
+#include <map>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+/// The uploads of a context, after each of its frames.
+class UploadOperation : public osg::GraphicsOperation
+{
+public:
+    explicit UploadOperation(const std::shared_ptr<Pager>& pager)
+        : osg::Referenced(true), osg::GraphicsOperation("osgPagedTexture", true), _pager(pager)
+    {
+    }
+
+    void operator()(osg::GraphicsContext* context) override
+    {
+        if (const std::shared_ptr<Pager> pager = _pager.lock())
+            pager->upload(*context->getState());
+        else
+            setKeep(false);
+    }
+
+private:
+    const std::weak_ptr<Pager> _pager;
+};
+
+} // namespace
+
+struct PagedScene::Views
+{
+    struct Eye
+    {
+        osg::Vec3d place; ///< In coordinates of the scene.
+        double time = 0.0;
+    };
+    std::mutex mutex;
+    std::map<const osg::Camera*, Eye> eyes;
+    std::map<osg::GraphicsContext*, osg::observer_ptr<osg::GraphicsContext>> contexts;
+    PagedGraph graph;
+};
+
+PagedScene::PagedScene()
+    : _pager(std::make_shared<Pager>(_settings)), _surfaces(std::make_shared<SurfaceCache>()),
+      _scope(new osg::StateSet), _views(std::make_unique<Views>())
+{
+    // So that parents lead event visitors here; not for children, which have their own.
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
+}
+
+PagedScene::PagedScene(const PagedScene& other, const osg::CopyOp& copyop)
+    : osg::Group(other, copyop), osgMultiRender::Planned(), _settings(other._settings),
+      _pager(other._pager), _surfaces(other._surfaces), _scope(new osg::StateSet),
+      _views(std::make_unique<Views>()), _isInstalled(other._isInstalled), _left(other._left)
+{
+    setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
+}
+
+PagedScene::~PagedScene() = default;
+
+void PagedScene::setSettings(const PagedSettings& settings)
+{
+    _settings = settings;
+    _pager->setSettings(settings);
+}
+
+void PagedScene::setSettingsText(const std::string& text)
+{
+    PagedSettings settings;
+    for (const std::string& error : parsePagedOptions(settings, text))
+        OSG_WARN << "osgPagedTexture::PagedScene: " << error << "; it does not count" << std::endl;
+    setSettings(settings);
+}
+
+std::string PagedScene::getSettingsText() const
+{
+    return formatPagedOptions(_settings);
+}
+
+osgDB::ReaderWriter::ReadResult PagedScene::readModel(const std::string& file,
+                                                      const osgDB::Options* options)
+{
+    const FileImages images;
+    const osg::ref_ptr<const osgDB::Options> own = images.optionsFor(options);
+    osgDB::ReaderWriter::ReadResult result = osgDB::Registry::instance()->readNode(file, own.get());
+    if (!result.validNode())
+        return result;
+    take(*result.getNode(), &images);
+    addChild(result.getNode());
+    return result;
+}
+
+void PagedScene::install(osg::Node& subgraph)
+{
+    take(subgraph, nullptr);
+}
+
+void PagedScene::take(osg::Node& subgraph, const FileImages* images)
+{
+    for (const LeftTexture& left : pageTextures(subgraph, _pager, images))
+        _left.emplace_back(left.name, left.reason);
+    pageLater(subgraph, _pager);
+    findSurfaces(subgraph, *_surfaces);
+    _isInstalled = true;
+}
+
+bool PagedScene::isAtRest() const
+{
+    return _pager->isAtRest();
+}
+
+PagerStatistics PagedScene::getStatistics() const
+{
+    return _pager->getStatistics();
+}
+
+void PagedScene::traverse(osg::NodeVisitor& visitor)
+{
+    osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
+    if (visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR && cullVisitor &&
+        cullVisitor->getCurrentRenderBin())
+        cull(*cullVisitor);
+    else
+        osg::Group::traverse(visitor);
+    if (visitor.getVisitorType() != osg::NodeVisitor::EVENT_VISITOR)
+        return;
+    auto& events = static_cast<osgGA::EventVisitor&>(visitor);
+    if (_settings.keys)
+        answerKeys(*this, events);
+    if (events.getActionAdapter() && !_pager->isAtRest())
+        events.getActionAdapter()->requestRedraw();
+}
+
+void PagedScene::cull(osgUtil::CullVisitor& visitor)
+{
+    {
+        // One that comes from a file, with its model below it.
+        std::lock_guard<std::mutex> lock(_views->mutex);
+        if (!_isInstalled)
+            take(*this, nullptr);
+    }
+    const osg::FrameStamp* stamp = visitor.getFrameStamp();
+    const unsigned int frame = stamp ? stamp->getFrameNumber() : 0;
+    _pager->advance(frame);
+
+    osg::Vec3d moved;
+    {
+        const osg::Matrixd toEye(*visitor.getModelViewMatrix());
+        const double time = stamp ? stamp->getReferenceTime() : 0.0;
+        const osg::Vec3d place = osg::Vec3d() * osg::Matrixd::inverse(toEye);
+        std::lock_guard<std::mutex> lock(_views->mutex);
+        Views::Eye& eye = _views->eyes[visitor.getCurrentCamera()];
+        if (eye.time > 0.0 && time > eye.time)
+            moved = osg::Matrixd::transform3x3(
+                (place - eye.place) * (_settings.prefetchSeconds / (time - eye.time)), toEye);
+        eye = {place, time};
+        osg::GraphicsContext* context =
+            visitor.getState() ? visitor.getState()->getGraphicsContext() : nullptr;
+        osg::observer_ptr<osg::GraphicsContext>* known =
+            context ? &_views->contexts[context] : nullptr;
+        if (known && !known->valid()) // Addresses are given again.
+        {
+            *known = context;
+            context->add(new UploadOperation(_pager));
+        }
+    }
+
+    visitor.pushStateSet(_scope.get());
+    const osgUtil::StateGraph* graph = visitor.getCurrentStateGraph();
+    osg::Group::traverse(visitor);
+    visitor.popStateSet();
+    if (_settings.graph)
+        _views->graph.cull(visitor, *_pager);
+    _pager->report(collectDemands(*graph, visitor, *_pager, *_surfaces, moved), frame);
+}
+
+std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
+{
+    using Decision = osgMultiRender::PlanEntry::Decision;
+    constexpr std::size_t maxPlanned = 64;
+    osgMultiRender::Plan plan;
+    plan.kit = "osgPagedTexture::PagedScene";
+    plan.view = "all";
+    const PagerStatistics statistics = _pager->getStatistics();
+    std::size_t named = 0;
+    for (const Pager::Line& line : _pager->getLines())
+    {
+        if (named++ >= maxPlanned)
+            continue;
+        const std::string size = std::to_string(line.width) + "x" + std::to_string(line.height);
+        osgMultiRender::PlanEntry entry{"texture '" + line.file + "' " + size, Decision::Drawn, {}};
+        if (line.failed)
+            entry = {entry.subject, Decision::Dropped, "it can't be read; a placeholder is shown"};
+        else if (line.wanted < 0 && line.level < 0)
+            entry = {entry.subject, Decision::Dropped, "nothing in view uses it"};
+        else
+            entry.reason = "level " + std::to_string(line.level) + " is there, " +
+                           std::to_string(line.wanted) + " is its share" +
+                           (statistics.isWhole ? ", since all fit at full size" : "");
+        plan.entries.push_back(entry);
+    }
+    if (named > maxPlanned)
+        plan.entries.push_back({std::to_string(named - maxPlanned) + " more textures",
+                                Decision::Folded, "only the first ones are listed"});
+    std::vector<std::pair<std::string, std::string>> notPaged;
+    {
+        std::lock_guard<std::mutex> lock(_views->mutex);
+        notPaged = _left;
+    }
+    for (const auto& [name, reason] : notPaged)
+        plan.entries.push_back(
+            {"texture '" + name + "'", Decision::Folded, "not paged: " + reason});
+    const FrameTimes times = _pager->getUploadTimes(), bytes = _pager->getUploadBytes();
+    plan.counts = {{"textures", double(statistics.textures)},
+                   {"textures.inView", double(statistics.inView)},
+                   {"textures.resident", double(statistics.resident)},
+                   {"textures.failed", double(statistics.failed)},
+                   {"textures.changing", double(statistics.changing)},
+                   {"textures.whole", statistics.isWhole ? 1.0 : 0.0},
+                   {"levels.missing", statistics.bias},
+                   {"gpu.bytes", double(statistics.upload.bytes)},
+                   {"gpu.bytes.peak", double(statistics.upload.peakBytes)},
+                   {"gpu.bytes.budget", double(_settings.gpuBytes())},
+                   {"gpu.bytes.whole", double(statistics.wholeBytes)},
+                   {"cpu.bytes.peak", double(statistics.loader.peakMemoryBytes)},
+                   {"files.decoded", double(statistics.loader.filesDecoded)},
+                   {"files.bytesRead", double(statistics.loader.bytesRead)},
+                   {"cache.hits", double(statistics.loader.cache.hits)},
+                   {"upload.bytes", double(statistics.upload.uploaded)},
+                   {"upload.bytes.p99", bytes.getPercentile(99.0)},
+                   {"upload.ms.p50", times.getPercentile(50.0)},
+                   {"upload.ms.p99", times.getPercentile(99.0)},
+                   {"upload.ms.max", times.getLargest()},
+                   {"plan.ms", statistics.planMilliseconds}};
+    return {plan};
+}
+
+osg::ref_ptr<PagedScene> install(osg::Node& subgraph, const PagedSettings& settings)
+{
+    osg::ref_ptr<PagedScene> scene = new PagedScene;
+    scene->setDataVariance(osg::Object::DYNAMIC);
+    scene->setSettings(settings);
+    scene->install(subgraph);
+    scene->addChild(&subgraph);
+    return scene;
+}
+
+} // namespace osgPagedTexture

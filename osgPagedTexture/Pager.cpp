@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/Pager.h>
+
+#include <osgPagedTexture/ChainRecipes.h>
+#include <osgPagedTexture/ThreadClock.h>
+
+#include <algorithm>
+
+namespace osgPagedTexture
+{
+
+Pager::Pager(const PagedSettings& settings)
+    : _showsLevels(settings.show == PagedShow::Levels), _waits(settings.wait), _settings(settings)
+{
+}
+
+Pager::~Pager() = default;
+
+void Pager::setSettings(const PagedSettings& settings)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _settings = settings;
+    _showsLevels = settings.show == PagedShow::Levels;
+    _waits = settings.wait;
+}
+
+PagedSettings Pager::getSettings() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _settings;
+}
+
+unsigned int Pager::add(const PagedImage& image)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    const auto [found, isNew] =
+        _byFile.insert({{image.file, image.isNormalMap}, unsigned(_entries.size())});
+    if (!isNew)
+    {
+        Entry& entry = _entries[found->second];
+        ++entry.users;
+        entry.image.anisotropy = std::max(entry.image.anisotropy, image.anisotropy);
+        entry.image.lodBias = std::min(entry.image.lodBias, image.lodBias);
+        return found->second;
+    }
+    _entries.emplace_back();
+    _entries.back().image = image;
+    _entries.back().state->translucent = image.translucent;
+    for (auto& each : _contexts)
+    {
+        each.second.resident.push_back(UploadEvent::Gone);
+        each.second.queued.push_back(None);
+    }
+    return found->second;
+}
+
+void Pager::remove(unsigned int texture)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    Entry& entry = _entries[texture];
+    if (--entry.users > 0)
+        return;
+    _byFile.erase({entry.image.file, entry.image.isNormalMap});
+    cancel(texture);
+    if (entry.isWatched)
+        _watch->remove(entry.image.file);
+    for (auto& each : _contexts)
+        each.second.queue->evict(texture);
+}
+
+void Pager::report(const std::vector<PagedDemand>& demands, unsigned int frame)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _reported = frame;
+    for (const PagedDemand& demand : demands)
+    {
+        Entry& entry = _entries[demand.texture];
+        entry.pixels = std::max(entry.pixels, demand.pixels);
+        entry.soonPixels = std::max(entry.soonPixels, demand.soonPixels);
+        if (demand.pixels > 0.0)
+            entry.lastUsed = frame;
+    }
+}
+
+void Pager::advance(unsigned int frame)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (frame == _frame)
+        return;
+    _frame = frame;
+    advanceLocked();
+    // What views of this frame see is the next one's need.
+    for (Entry& entry : _entries)
+        entry.pixels = entry.soonPixels = 0.0;
+}
+
+void Pager::advanceLocked()
+{
+    meetContexts();
+    if (_entries.empty() || !learnAbilities())
+        return;
+    const double start = threadMilliseconds();
+    takeEvents();
+    takeResults();
+    takeChanges();
+    if (_settings.freeze)
+        return;
+    plan();
+    _changing = 0;
+    for (unsigned int i = 0; i < _entries.size(); ++i)
+        moveTo(i);
+    _planMilliseconds = threadMilliseconds() - start;
+}
+
+/// Those that are closed have nothing any more, and nothing is loaded for them.
+void Pager::meetContexts()
+{
+    std::lock_guard<std::mutex> lock(_queueMutex);
+    for (const auto& each : _queues)
+    {
+        if (!each.second->isOpen())
+        {
+            _contexts.erase(each.first);
+            continue;
+        }
+        Context& context = _contexts[each.first];
+        if (context.queue)
+            continue;
+        context.queue = each.second;
+        context.resident.assign(_entries.size(), UploadEvent::Gone);
+        context.queued.assign(_entries.size(), None);
+    }
+}
+
+/// Waits for the first context; what all of them can do counts.
+bool Pager::learnAbilities()
+{
+    if (_contexts.empty())
+        return false;
+    ContextAbilities all;
+    for (const auto& each : _contexts)
+    {
+        const ContextAbilities one = each.second.queue->getAbilities();
+        if (!one.known)
+            return _abilities.known;
+        if (!all.known)
+            all = one;
+        all.s3tc = all.s3tc && one.s3tc;
+        all.rgtc = all.rgtc && one.rgtc;
+        all.bptc = all.bptc && one.bptc;
+        all.copies = all.copies && one.copies;
+        all.maxSide = std::min(all.maxSide, one.maxSide);
+    }
+    _abilities = all;
+    for (Entry& entry : _entries)
+        if (!entry.bytes)
+            setFormat(entry);
+    return true;
+}
+
+void Pager::setFormat(Entry& entry)
+{
+    const PagedImage& image = entry.image;
+    entry.format = formatFor(image.channels, image.translucent, image.isNormalMap,
+                             _settings.compression, _abilities);
+    std::vector<std::uint64_t>& bytes = _sizes[{image.width, image.height, entry.format}];
+    if (bytes.empty())
+        for (int level = 0; level < levelCount(image.width, image.height); ++level)
+            bytes.push_back(chainBytes(entry.format, image.width, image.height, level));
+    entry.bytes = &bytes;
+    entry.finest = 0;
+    while (levelSide(std::max(image.width, image.height), entry.finest) > _abilities.maxSide)
+        ++entry.finest;
+}
+
+void Pager::takeEvents()
+{
+    for (auto& each : _contexts)
+        for (const UploadEvent& event : each.second.queue->takeEvents())
+        {
+            each.second.queued[event.texture] = None;
+            if (event.isRefused)
+                _entries[event.texture].finest =
+                    std::min(event.level + 1, int(_entries[event.texture].bytes->size()) - 1);
+            else
+            {
+                each.second.resident[event.texture] = event.level;
+                _entries[event.texture].isOld = false;
+            }
+        }
+}
+
+void Pager::plan()
+{
+    _wishes.resize(_entries.size());
+    for (std::size_t i = 0; i < _entries.size(); ++i)
+    {
+        Entry& entry = _entries[i];
+        ResidencyWish& wish = _wishes[i];
+        wish = {};
+        if (entry.users == 0 || entry.state->failed || !entry.bytes)
+            continue;
+        const TexelTexture texture{entry.image.width, entry.image.height, entry.image.anisotropy,
+                                   entry.image.lodBias};
+        // Levels count from the finest one that may be there.
+        const auto wanted = [&](double pixels)
+        {
+            return pixels > 0.0 ? std::max(0.0, neededLevel(texture, pixels) - entry.finest)
+                                : ResidencyWish::None;
+        };
+        wish.bytes = entry.bytes->data() + entry.finest;
+        wish.levels = int(entry.bytes->size()) - entry.finest;
+        entry.need = wanted(entry.pixels);
+        wish.need = entry.need;
+        wish.soon = wanted(entry.soonPixels);
+        const int there = coarsest(unsigned(i));
+        wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
+        wish.lastUsed = entry.lastUsed;
+    }
+    _plan = planResidency(_wishes, _settings.gpuBytes());
+    for (std::size_t i = 0; i < _entries.size(); ++i)
+        _entries[i].target = _plan.first[i] < 0 ? -1 : _plan.first[i] + _entries[i].finest;
+}
+
+/// The finest level that all contexts have; Gone where one has nothing.
+int Pager::coarsest(unsigned int texture) const
+{
+    int level = 0;
+    for (const auto& each : _contexts)
+    {
+        if (each.second.resident[texture] == UploadEvent::Gone)
+            return UploadEvent::Gone;
+        level = std::max(level, each.second.resident[texture]);
+    }
+    return _contexts.empty() ? UploadEvent::Gone : level;
+}
+
+bool Pager::isAtRest() const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _entries.empty() || (_abilities.known && _changing == 0 && _requests.empty());
+}
+
+std::shared_ptr<const PagedState> Pager::getState(unsigned int texture) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _entries[texture].state;
+}
+
+} // namespace osgPagedTexture

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+// What the pager asks of the workers and orders of the contexts, and what comes of it.
+#include <osgPagedTexture/Pager.h>
+
+#include <osgPagedTexture/ChainRecipes.h>
+
+#include <osg/Notify>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osgPagedTexture
+{
+
+/// Files with new content. What is shown of them stays until the new texture is complete.
+void Pager::takeChanges()
+{
+    if (!_watch)
+        return;
+    for (const std::string& file : _watch->takeChanged())
+        for (unsigned int i = 0; i < _entries.size(); ++i)
+            if (_entries[i].users > 0 && _entries[i].image.file == file)
+                readAgain(i);
+}
+
+void Pager::readAgain(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    try
+    {
+        const ImageInfo info = readImageInfo(entry.image.file);
+        entry.image.width = info.width;
+        entry.image.height = info.height;
+        entry.image.channels = info.channels;
+        entry.image.translucent = info.translucent;
+    }
+    catch (const ImageError& error)
+    {
+        OSG_WARN << "osgPagedTexture: " << error.what() << "; what is there of it stays"
+                 << std::endl;
+        return;
+    }
+    cancel(texture);
+    setFormat(entry);
+    entry.state->failed = false;
+    entry.state->translucent = entry.image.translucent;
+    entry.isOld = true;
+    for (auto& each : _contexts)
+        each.second.resident[texture] = UploadEvent::Gone;
+}
+
+/// Chains wait for their upload in memory that the workers have not: a quarter of all.
+std::uint64_t Pager::backlog() const
+{
+    std::uint64_t bytes = 0;
+    for (const auto& each : _contexts)
+        bytes = std::max(bytes, each.second.queue->getStatistics().waitingBytes);
+    return bytes;
+}
+
+void Pager::takeResults()
+{
+    if (!_loader)
+        return;
+    while (backlog() <= _settings.cpuBytes() / 4)
+    {
+        const std::vector<ChainResult> results = _loader->poll(1);
+        if (results.empty())
+            break;
+        accept(results.front());
+    }
+    for (const std::string& message : _loader->takeMessages())
+        OSG_WARN << "osgPagedTexture: " << message << std::endl;
+}
+
+void Pager::accept(const ChainResult& result)
+{
+    const auto found = _requests.find(result.id);
+    if (found == _requests.end())
+        return;
+    const std::vector<unsigned int> textures = found->second;
+    if (result.state != ChainResult::State::Preview)
+        _requests.erase(found);
+    for (const unsigned int texture : textures)
+        give(result, texture);
+}
+
+void Pager::give(const ChainResult& result, unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    if (result.state != ChainResult::State::Preview)
+    {
+        entry.request = 0;
+        entry.requested = None;
+    }
+    if (result.state != ChainResult::State::Failed)
+    {
+        pushToAll(texture, result.chain);
+        return;
+    }
+    // What is there already stays.
+    const int there = coarsest(texture);
+    if (there == UploadEvent::Gone)
+        entry.state->failed = true;
+    else
+        entry.finest = there;
+}
+
+void Pager::pushToAll(unsigned int texture, const std::shared_ptr<const MipChain>& chain)
+{
+    const int target = _entries[texture].target;
+    if (target < 0)
+        return;
+    const int level = std::max(target, chain->firstLevel);
+    for (auto& each : _contexts)
+    {
+        Context& context = each.second;
+        const int there = context.resident[texture];
+        const bool isUseful =
+            there == UploadEvent::Gone || (there > target ? level < there : there < target);
+        if (!isUseful || (there < target && there != UploadEvent::Gone && level != target))
+            continue;
+        context.queued[texture] = level;
+        context.queue->push({texture, level, chain});
+    }
+}
+
+double Pager::priority(const Entry& entry, int there) const
+{
+    const int levels = int(entry.bytes->size());
+    const double gap = (there == UploadEvent::Gone ? levels : there) - entry.target;
+    const double pixels = std::max(entry.pixels, entry.soonPixels);
+    const double size = std::isfinite(pixels) ? std::log2(1.0 + pixels) : 64.0;
+    return (entry.pixels > 0.0 ? 1000.0 : 0.0) + 10.0 * gap + size;
+}
+
+void Pager::cancel(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    if (!entry.request)
+        return;
+    _loader->cancel(entry.request);
+    std::vector<unsigned int>& textures = _requests[entry.request];
+    textures.erase(std::remove(textures.begin(), textures.end(), texture), textures.end());
+    if (textures.empty())
+        _requests.erase(entry.request);
+    entry.request = 0;
+    entry.requested = None;
+}
+
+/// Orders what a context can do without a chain. Returns whether it needs one.
+bool Pager::orderIn(Context& context, unsigned int texture, int target)
+{
+    const int there = context.resident[texture];
+    const int next = context.queued[texture];
+    const auto order = [&](int level)
+    {
+        if (level == UploadEvent::Gone)
+            context.queue->evict(texture);
+        else
+            context.queue->push({texture, level, nullptr});
+        context.queued[texture] = level;
+    };
+    const bool hasOld = _entries[texture].isOld && next == None;
+    if ((next == None ? there : next) == target && !hasOld)
+        return false;
+    if (target == UploadEvent::Gone)
+    {
+        order(UploadEvent::Gone);
+        return false;
+    }
+    const bool isTooFine = there != UploadEvent::Gone && there < target;
+    if (there == target || (isTooFine && _abilities.copies))
+    {
+        order(target);
+        return false;
+    }
+    // On its way, but finer than it may be by now.
+    if (next != None && next != UploadEvent::Gone && next < target && !isTooFine)
+        order(there);
+    return true;
+}
+
+/// Brings one texture nearer to its target.
+void Pager::moveTo(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    if (entry.users == 0 || entry.state->failed)
+        return;
+    bool needsChain = false, isChanging = false;
+    for (auto& each : _contexts)
+    {
+        needsChain = orderIn(each.second, texture, entry.target) || needsChain;
+        isChanging = isChanging || each.second.resident[texture] != entry.target ||
+                     each.second.queued[texture] != None;
+    }
+    _changing += isChanging ? 1 : 0;
+    if (needsChain)
+        ask(texture);
+    else
+        cancel(texture);
+}
+
+void Pager::ask(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    const int there = coarsest(texture);
+    // A request a level coarser is let through: what comes of it helps, and nothing is decoded in
+    // vain where the need grows with each frame.
+    if (entry.request && entry.requested >= entry.target && entry.requested <= entry.target + 1)
+    {
+        _loader->setPriority(entry.request, priority(entry, there));
+        return;
+    }
+    cancel(texture);
+    const std::string key = formatName(entry.format) + (entry.image.isNormalMap ? "n" : "c") +
+                            std::to_string(int(_settings.quality));
+    std::shared_ptr<const ChainRecipe>& recipe = _recipes[key];
+    if (!recipe)
+        recipe = recipeFor(entry.format, entry.image.isNormalMap, _settings.quality);
+    ChainRequest request;
+    request.file = entry.image.file;
+    request.recipe = recipe;
+    request.firstLevel = entry.target;
+    request.priority = priority(entry, there);
+    request.previewSide = there == UploadEvent::Gone ? int(_settings.previewSide) : 0;
+    entry.request = loader().request(request);
+    entry.requested = entry.target;
+    _requests[entry.request].push_back(texture);
+    if (_settings.reload && !entry.isWatched)
+    {
+        if (!_watch)
+            _watch = std::make_unique<FileWatch>();
+        _watch->add(entry.image.file);
+        entry.isWatched = true;
+    }
+}
+
+ChainLoader& Pager::loader()
+{
+    if (!_loader)
+    {
+        ChainLoaderSettings settings;
+        settings.threads = _settings.threads;
+        settings.cacheFolder = cacheFolder(_settings.cache);
+        settings.cacheBytes = std::uint64_t(_settings.cacheMegabytes * 1048576.0);
+        settings.memoryBytes = _settings.cpuBytes() - _settings.cpuBytes() / 4;
+        settings.showDegraded = _settings.degraded;
+        _loader = std::make_unique<ChainLoader>(settings);
+    }
+    return *_loader;
+}
+
+} // namespace osgPagedTexture

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgPagedTexture/Export.h>
+
+#include <cstdint>
+
+namespace osgPagedTexture
+{
+
+/// How many bytes may go to the GPU now, so that a frame's uploads stay within their time. What the
+/// last pieces took decides how large the next ones are.
+class OSGPAGEDTEXTURE_EXPORT UploadPace
+{
+public:
+    static constexpr std::uint64_t LeastPiece = 16
+                                                << 10; ///< Bytes; each piece has a cost of its own.
+    static constexpr std::uint64_t LargestPiece = 4 << 20;
+
+    /// Begins a frame that may take that many milliseconds.
+    void begin(double milliseconds);
+
+    /// Bytes of the next piece; 0: the frame has no time left. The first piece of a frame is at
+    /// least LeastPiece, so that it goes on however short the time is.
+    std::uint64_t piece() const;
+
+    /// A piece took that long. Times that are not finite or not above 0 count as no time.
+    void took(std::uint64_t bytes, double milliseconds);
+
+    double getSpent() const { return _spent; } ///< Milliseconds in this frame.
+    double getRate() const { return _rate; }   ///< Bytes a millisecond, as measured.
+
+private:
+    double _rate = 256.0 * 1024.0;
+    double _budget = 0.0;
+    double _spent = 0.0;
+    bool _isFirst = true;
+};
+
+} // namespace osgPagedTexture
