@@ -18,7 +18,7 @@ const std::array<std::uint8_t, 65536>& grains()
         std::array<std::uint8_t, 65536> values{};
         CityRandom random(7);
         for (std::uint8_t& value : values)
-            value = std::uint8_t(22.0 + random(0, 5) + random(0, 5) + random(0, 5) + random(0, 5));
+            value = std::uint8_t(16.0 + random(0, 8) + random(0, 8) + random(0, 8) + random(0, 8));
         return values;
     }();
     return table;

@@ -57,6 +57,8 @@ public:
         Town town;
         town.scene = new osg::Group;
         town.scene->setName("Town");
+        // The photographs have their light in them.
+        town.scene->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
         int ring = 0;
         for (; !_pictures.isExhausted(); ++ring)
             for (int row = -ring; row <= ring; ++row)
