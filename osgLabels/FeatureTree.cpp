@@ -10,7 +10,13 @@ FeatureTree::Part FeatureTree::add(Part parent, std::uint64_t key, const std::st
 {
     const auto [found, isNew] = _byKey.emplace(key, Part(_nodes.size()));
     if (!isNew)
-        return found->second;
+    {
+        const auto known = name.empty() ? _names.end() : _names.find(name);
+        const Name same = known == _names.end() ? None : known->second;
+        if (_nodes[found->second].name == same && (same || name.empty()))
+            return found->second;
+        found->second = Part(_nodes.size());
+    }
     Node node;
     node.parent = parent;
     if (!name.empty())

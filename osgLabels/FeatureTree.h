@@ -32,7 +32,8 @@ public:
         std::uint32_t first = 1, last = 0;
     };
 
-    /// The part with this key, made if it is new. `key` tells parts of the scene apart.
+    /// The part with this key, made if it is new. `key` tells parts of the scene apart; one that
+    /// had another name is another part's from now on.
     Part add(Part parent, std::uint64_t key, const std::string& name);
     /// A label names a part for itself, whatever its name.
     void setLabelled(Part part);

@@ -4,6 +4,8 @@
 
 #include <osgLabels/LabelExtensions.h>
 
+#include <osgMultiRender/PassState.h>
+
 #include <osg/ColorMask>
 #include <osg/Depth>
 #include <osg/Notify>
@@ -62,11 +64,12 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
             new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), Over);
         base->setAttribute(new osg::ColorMask, Over);
         base->setMode(GL_BLEND, Never);
-        state.pushStateSet(base);
-        _targets->bind(state);
-        clear(state);
-        draw();
-        state.popStateSet();
+        {
+            const osgMultiRender::PassState pushed(state, *base);
+            _targets->bind(state);
+            clear(state);
+            draw();
+        }
         readPicked(state);
     }
     composite(renderInfo);
@@ -77,7 +80,7 @@ void LabelPass::clear(osg::State& state) const
 {
     osg::ref_ptr<osg::StateSet> writes = new osg::StateSet;
     writes->setAttributeAndModes(new osg::Depth, Over);
-    state.pushStateSet(writes);
+    const osgMultiRender::PassState pushed(state, *writes);
     state.apply();
     const auto& gl = LabelExtensions::instance();
     const GLuint nothing[4] = {LabelTargets::Nothing, 0, 0, 0};
@@ -87,7 +90,6 @@ void LabelPass::clear(osg::State& state) const
     const GLfloat farthest = 1.0f;
     if (_passes == 0)
         gl.clearBufferfv(GL_DEPTH, 0, &farthest);
-    state.popStateSet();
 }
 
 std::string LabelPass::whyIncomplete(osg::State& state)
@@ -149,8 +151,7 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     osg::ref_ptr<osg::Uniform> sample = new osg::Uniform("osgLabels_sample", 0);
     if (samples > 1)
         pass->addUniform(sample);
-    state.pushStateSet(_under);
-    state.pushStateSet(pass);
+    const osgMultiRender::PassState below(state, *_under), above(state, *pass);
     std::optional<OneSample> one;
     for (int i = 0; i < samples; ++i)
     {
@@ -162,9 +163,6 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
             one->set(i);
         _resources->screen->draw(renderInfo);
     }
-    one.reset();
-    state.popStateSet();
-    state.popStateSet();
 }
 
 } // namespace osgLabels

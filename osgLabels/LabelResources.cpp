@@ -90,7 +90,8 @@ LabelResources::LabelResources(const LabelSettings& s, osg::Group& group) : sett
     if (hasSurfaceLabels())
         collector->collect(group);
     fitNew();
-    map = std::make_unique<MapScene>(settings, _glyphs, numberOfStyle, batches, objects, group);
+    map = std::make_unique<MapScene>(settings, _glyphs, numberOfStyle, batches, objects,
+                                     shared->frames, group);
     if (settings.chunk)
         makeChunks(group);
 }

@@ -151,8 +151,8 @@ void LabelScene::cullSubgraph(osg::NodeVisitor& visitor)
         resources->getChunks()->accept(visitor);
     else
         osgMultiRender::SurfaceGroup::cullSubgraph(visitor);
-    if (resources && resources->map && resources->map->getFileLabels())
-        resources->map->getFileLabels()->accept(visitor);
+    if (resources && resources->map)
+        resources->map->cull(visitor);
 }
 
 std::unique_ptr<osgMultiRender::SurfacePass> LabelScene::createPass() const

@@ -4,6 +4,8 @@
 
 #include <osgLabels/LabelResources.h>
 
+#include <osgMultiRender/PassState.h>
+
 #include <osg/Point>
 #include <osg/Viewport>
 
@@ -185,12 +187,11 @@ void MapPass::findStates(osg::RenderInfo& renderInfo)
     pass->addUniform(new osg::Uniform("osgLabels_isMoving", int(_memory->isMoving())), Over);
     pass->addUniform(
         new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), MapMemory::Hold)), Over);
-    state.pushStateSet(pass);
+    const osgMultiRender::PassState pushed(state, *pass);
     state.apply();
     _quads->drawPoints(renderInfo);
     if (_settings.declutter && !_memory->isCut())
         _memory->startFeedback(state, _placed);
-    state.popStateSet();
 }
 
 void MapPass::draw(osg::RenderInfo& renderInfo)
@@ -210,10 +211,9 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     add(looksOf(_settings.styles));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
                        Over);
-    state.pushStateSet(pass);
+    const osgMultiRender::PassState pushed(state, *pass);
     state.apply();
     _quads->draw(renderInfo);
-    state.popStateSet();
 }
 
 } // namespace osgLabels

@@ -73,8 +73,14 @@ FeatureTree::Part MapFeatures::partOf(const osg::NodePath& path)
         if (!isNamed && !isValued)
             continue;
         part = _tree.add(part, hashOf(path, depth + 1), isNamed ? node.getName() : std::string());
-        if (isValued && _valued.insert(part).second)
-            addValued(path, depth, part);
+        if (!isValued)
+            continue;
+        // A part may be that of a node that has died, where this one has come to lie.
+        osg::observer_ptr<const osg::Node>& known = _valued[part];
+        if (known.get() == &node)
+            continue;
+        known = &node;
+        addValued(path, depth, part);
     }
     return part;
 }
@@ -123,6 +129,8 @@ std::optional<LabelSource::Found> MapFeatures::kindOf(const osg::NodePath& path)
 
 void MapFeatures::takeNew()
 {
+    // Who finds a number in the collector waits until what it is of has been written.
+    std::lock_guard<std::mutex> taking(_takeMutex);
     std::unordered_map<const osg::Drawable*, MeshSides> sides; // instances share theirs
     for (const std::uint32_t object : _collector.takeNew())
     {

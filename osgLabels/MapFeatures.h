@@ -13,7 +13,7 @@
 #include <mutex>
 #include <optional>
 #include <tuple>
-#include <unordered_set>
+#include <unordered_map>
 
 namespace osgLabels
 {
@@ -86,7 +86,8 @@ private:
 
     const MapClasses _classes;
     const FoundValued _found;
-    std::mutex _mutex; ///< Of all below, under the collector's.
+    std::mutex _takeMutex; ///< Of takeNew(); locked before the collector's.
+    std::mutex _mutex;     ///< Of all below, under the collector's.
     FeatureTree _tree;
     std::map<Kind, std::uint32_t> _kindNumbers;
     std::vector<Kind> _kinds;
@@ -98,7 +99,8 @@ private:
         std::uint64_t last = 0;   ///< and of the mesh in the last frame.
     };
     std::vector<Object> _objects; ///< By the collector's number.
-    std::unordered_set<FeatureTree::Part> _valued;
+    /// Parts with labels by user values, and the nodes that gave them.
+    std::unordered_map<FeatureTree::Part, osg::observer_ptr<const osg::Node>> _valued;
     LabelCollector _collector;
 };
 

@@ -35,7 +35,12 @@ void MapLabels::traverse(osg::NodeVisitor& visitor)
     auto* cullVisitor = visitor.asCullVisitor();
     if (visitor.getVisitorType() == osg::NodeVisitor::CULL_VISITOR && cullVisitor &&
         !_labels.empty())
-        cullVisitor->addDrawable(_mark, cullVisitor->getModelViewMatrix());
+        leaveMark(*cullVisitor);
+}
+
+void MapLabels::leaveMark(osgUtil::CullVisitor& visitor) const
+{
+    visitor.addDrawable(_mark, visitor.getModelViewMatrix());
 }
 
 osg::BoundingSphere MapLabels::computeBound() const

@@ -9,6 +9,11 @@
 
 #include <vector>
 
+namespace osgUtil
+{
+class CullVisitor;
+}
+
 namespace osgLabels
 {
 
@@ -31,6 +36,9 @@ public:
 
     /// Grows with each change.
     unsigned int getModifiedCount() const { return _modifiedCount; }
+
+    /// In a cull traversal, as if the node were met: draws its labels, and any others of the scene.
+    void leaveMark(osgUtil::CullVisitor& visitor) const;
 
     void traverse(osg::NodeVisitor& visitor) override;
     osg::BoundingSphere computeBound() const override;

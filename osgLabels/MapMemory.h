@@ -10,6 +10,7 @@
 
 #include <osg/StateSet>
 
+#include <atomic>
 #include <memory>
 #include <unordered_map>
 
@@ -49,6 +50,8 @@ public:
     void begin(osg::State& state, const std::vector<PlacedLabel>& labels, const MapCamera& camera,
                double time);
     bool isCut() const { return _isCut; }
+    /// Whether it has GL objects of that context.
+    bool isOf(unsigned int contextID) const { return _contextID == contextID; }
     bool isMoving() const { return _isMoving; }
     /// Of the labels, and then of those that are gone.
     const std::vector<Past>& getPasts() const { return _pasts; }
@@ -101,7 +104,7 @@ private:
     std::unique_ptr<osgMultiRender::Framebuffer> _framebuffer;
     osg::ref_ptr<osgMultiRender::TargetTexture> _textures[2];
     int _current = 0, _rows = 0;
-    unsigned int _contextID = 0;
+    std::atomic<unsigned int> _contextID{~0u};
     double _time = 0.0, _start = 0.0;
     bool _isCut = true, _isMoving = true;
     MapCamera _camera;

@@ -8,6 +8,8 @@
 #include <osgLabels/LabelUnits.h>
 #include <osgLabels/Shaders.h>
 
+#include <osgMultiRender/PassState.h>
+
 #include <osg/ColorMask>
 #include <osg/CullFace>
 #include <osg/Depth>
@@ -262,14 +264,15 @@ void MapPass::drawLayer(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int la
     osg::State& state = *renderInfo.getState();
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     setState(*base, _viewport, _coverage->getBox());
-    state.pushStateSet(base);
-    state.apply();
-    _targets->bind(state, layer, next);
-    const GLuint nothing[4] = {};
-    const GLfloat farthest = 1.0f;
-    LabelExtensions::instance().clearBufferuiv(GL_COLOR, 1, nothing);
-    LabelExtensions::instance().clearBufferfv(GL_DEPTH, 0, &farthest);
-    state.popStateSet();
+    {
+        const osgMultiRender::PassState pushed(state, *base);
+        state.apply();
+        _targets->bind(state, layer, next);
+        const GLuint nothing[4] = {};
+        const GLfloat farthest = 1.0f;
+        LabelExtensions::instance().clearBufferuiv(GL_COLOR, 1, nothing);
+        LabelExtensions::instance().clearBufferfv(GL_DEPTH, 0, &farthest);
+    }
     if (next && !_needsNext[unsigned(_actions[std::size_t(layer)])])
         return;
     const MapAction action = _actions[std::size_t(layer)];

@@ -60,17 +60,29 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
         drawn.push_back({leaf->_drawable.get(), localToEye});
         drawnLeaves.push_back(leaf);
     }
-    const std::size_t begin = _labels.size();
-    _scene.prepareValued(groupToEye, visitor.getTraversalMask(), _labels);
-    addGroup(visitor.getProjectionMatrix(), begin);
-    if (_labels.empty())
+    if (_labels.empty() && _settings.map == "off")
         return;
-    const std::vector<MapFeatures::Occluder> found = _scene.features.find(group, groupToEye, drawn);
-    for (std::size_t i = 0; i < found.size(); ++i)
-        if (found[i].number)
-            _occluders[drawnLeaves[i]] = {
-                found[i].number, found[i].action.value_or(_settings.mapAction), found[i].sides};
-    _scene.activate(group);
+    const std::size_t begin = _labels.size();
+    // Another view, or what this one has found, may change the numbers of all: they are taken
+    // again then.
+    constexpr int tries = 4;
+    for (int i = 0; i < tries; ++i)
+    {
+        const unsigned int count = _scene.features.getModifiedCount();
+        const auto found = _scene.features.find(group, groupToEye, drawn);
+        for (std::size_t leaf = 0; leaf < found.size(); ++leaf)
+            if (found[leaf].number)
+                _occluders[drawnLeaves[leaf]] = {found[leaf].number,
+                                                 found[leaf].action.value_or(_settings.mapAction),
+                                                 found[leaf].sides};
+        _scene.activate(group);
+        if (i == 0) // those that were found just now, too
+            _scene.prepareValued(visitor, _labels);
+        _scene.takeRanges(_labels);
+        if (_scene.features.getModifiedCount() == count)
+            break;
+    }
+    addGroup(visitor.getProjectionMatrix(), begin);
 }
 
 bool MapPass::addMany(const osgUtil::RenderLeaf& leaf)
@@ -102,8 +114,9 @@ void MapPass::begin(osg::RenderInfo& renderInfo, const osg::Camera* camera,
     std::copy(std::begin(viewport), std::end(viewport), std::begin(_viewport));
     if (state.getFrameStamp())
         _time = state.getFrameStamp()->getSimulationTime();
+    const unsigned int frame = state.getFrameStamp() ? state.getFrameStamp()->getFrameNumber() : 0;
     if (!_labels.empty() && (_settings.declutter || _settings.mapTest != MapTest::Pixel))
-        _memory = _scene.getMemory(camera);
+        _memory = _scene.getMemory(camera, frame);
 }
 
 void MapPass::place()

@@ -21,7 +21,9 @@ struct EyeLabel
     std::uint32_t identifier = 0; ///< Of its text.
     std::uint32_t style = 0;
     float width = 0.0f; ///< em
-    FeatureTree::Range own;
+    FeatureTree::Name feature = FeatureTree::None;
+    FeatureTree::Part part = FeatureTree::Scene; ///< Of a label by user values.
+    FeatureTree::Range own;                      ///< Of these.
 };
 
 /// A rectangle in pixels of the window.

@@ -85,7 +85,7 @@ const osg::StateSet* MapPrograms::get(const Kind& kind, const std::string& defin
     for (GLenum mode : {GL_DEPTH_TEST, GL_CULL_FACE, GL_ALPHA_TEST, GL_STENCIL_TEST,
                         GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
         stateSet->setMode(mode, Off);
-    const std::pair<const char*, int> samplers[] = {{"osgLabels_near", MapTargets::NearUnit},
+    const std::pair<const char*, int> samplers[] = {{"osgLabels_nearFace", MapTargets::NearUnit},
                                                     {"osgLabels_next", MapTargets::NextUnit},
                                                     {"osgLabels_mapLabels", LabelsUnit},
                                                     {"osgLabels_states", StatesUnit}};

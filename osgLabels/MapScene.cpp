@@ -3,12 +3,17 @@
 
 #include <osgLabels/MapLabelFile.h>
 
+#include <osg/LOD>
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/Sequence>
 #include <osg/Switch>
 #include <osg/Transform>
 #include <osgDB/FileUtils>
 #include <osgDB/fstream>
+#include <osgUtil/CullVisitor>
+
+#include <algorithm>
 
 namespace osgLabels
 {
@@ -29,20 +34,42 @@ MapClasses classesOf(const LabelSettings& settings)
     return classes;
 }
 
-/// Whether nodes are still one below the other, and neither masked nor switched off.
-bool isShown(const osg::NodePath& path, osg::Node::NodeMask mask)
+/// Whether a node that traverses some of its children only, by what is chosen or by distance,
+/// traverses this one. `above` leads to the parent, from the group that the visitor is at.
+bool isChosen(const osg::NodePath& above, const osg::Node& child, osgUtil::CullVisitor& visitor)
+{
+    osg::Group& parent = *above.back()->asGroup();
+    if (const osg::Switch* choice = parent.asSwitch())
+        return choice->getChildValue(&child);
+    if (const auto* sequence = dynamic_cast<const osg::Sequence*>(&parent))
+        return sequence->getValue() == int(parent.getChildIndex(&child));
+    const auto* levels = dynamic_cast<const osg::LOD*>(&parent);
+    if (!levels)
+        return true;
+    visitor.pushModelViewMatrix(
+        new osg::RefMatrix(osg::computeLocalToWorld(above) * *visitor.getModelViewMatrix()),
+        osg::Transform::RELATIVE_RF);
+    const float range = levels->getRangeMode() == osg::LOD::DISTANCE_FROM_EYE_POINT
+                            ? visitor.getDistanceToViewPoint(levels->getCenter(), true)
+                            : visitor.clampedPixelSize(levels->getBound()) / visitor.getLODScale();
+    visitor.popModelViewMatrix();
+    const unsigned int place = levels->getChildIndex(&child);
+    return place < levels->getNumRanges() && levels->getMinRange(place) <= range &&
+           range < levels->getMaxRange(place);
+}
+
+/// Whether nodes are still one below the other, and the visitor traverses them.
+bool isShown(const osg::NodePath& path, osgUtil::CullVisitor& visitor)
 {
     for (std::size_t i = 0; i < path.size(); ++i)
     {
-        if (!(path[i]->getNodeMask() & mask))
+        if (!(path[i]->getNodeMask() & visitor.getTraversalMask()))
             return false;
         if (i == 0)
             continue;
         const osg::Group* parent = path[i - 1]->asGroup();
-        if (!parent || !parent->containsNode(path[i]))
-            return false;
-        if (const osg::Switch* choice = path[i - 1]->asSwitch();
-            choice && !choice->getChildValue(path[i]))
+        const osg::NodePath above(path.begin(), path.begin() + std::ptrdiff_t(i));
+        if (!parent || !parent->containsNode(path[i]) || !isChosen(above, *path[i], visitor))
             return false;
     }
     return true;
@@ -72,13 +99,13 @@ private:
 
 MapScene::MapScene(const LabelSettings& settings, std::shared_ptr<GlyphSet> glyphs,
                    MapTexts::StyleOf styleOf, const LabelBatches& batches,
-                   const LabelObjects& objects, osg::Group& group)
+                   const LabelObjects& objects, const FramesInFlight& frames, osg::Group& group)
     : features(
           classesOf(settings), settings.map == "off" ? MapFeatures::FoundValued()
                                                      : [this](MapFeatures::Valued valued)
                                    { addValued(std::move(valued)); }),
-      texts(std::move(glyphs), std::move(styleOf), features), records(batches, objects, features),
-      buffers(texts.getTable())
+      texts(std::move(glyphs), std::move(styleOf), features, frames),
+      records(batches, objects, features), buffers(texts.getTable())
 {
     if (settings.map != "off" && settings.map != "values")
         readFile(settings.map);
@@ -116,7 +143,17 @@ void MapScene::readFile(const std::string& file)
     _fileLabels->setName(found);
 }
 
-osg::ref_ptr<MapMemory> MapScene::getMemory(const osg::Camera* camera)
+void MapScene::cull(osg::NodeVisitor& visitor)
+{
+    if (_fileLabels)
+        _fileLabels->accept(visitor);
+    osgUtil::CullVisitor* cullVisitor = visitor.asCullVisitor();
+    if (!cullVisitor || !_hasValues)
+        return;
+    _values->leaveMark(*cullVisitor);
+}
+
+osg::ref_ptr<MapMemory> MapScene::getMemory(const osg::Camera* camera, unsigned int frame)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     for (auto each = _memories.begin(); each != _memories.end();)
@@ -124,10 +161,17 @@ osg::ref_ptr<MapMemory> MapScene::getMemory(const osg::Camera* camera)
             each = _memories.erase(each);
         else
             ++each;
-    Memory& memory = _memories[camera];
-    if (!memory.memory)
-        memory = {camera, new MapMemory};
-    return memory.memory;
+    Memories& own = _memories[camera];
+    own.camera = camera;
+    if (own.frame != frame)
+    {
+        own.memories.resize(own.used); // fewer pictures than before
+        own.used = 0;
+        own.frame = frame;
+    }
+    if (own.used == own.memories.size())
+        own.memories.push_back(new MapMemory);
+    return own.memories[own.used++];
 }
 
 void MapScene::releaseGLObjects(osg::State* state)
@@ -138,7 +182,14 @@ void MapScene::releaseGLObjects(osg::State* state)
     programs.releaseGLObjects(state);
     records.releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_mutex);
-    _memories.clear();
+    for (auto each = _memories.begin(); each != _memories.end();)
+    {
+        const auto isGone = [&](const osg::ref_ptr<MapMemory>& memory)
+        { return !state || memory->isOf(state->getContextID()); };
+        std::vector<osg::ref_ptr<MapMemory>>& own = each->second.memories;
+        const bool any = std::any_of(own.begin(), own.end(), isGone);
+        each = any ? _memories.erase(each) : std::next(each);
+    }
 }
 
 /// Called under the lock of features.
@@ -146,6 +197,7 @@ void MapScene::addValued(MapFeatures::Valued valued)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     _found.push_back(std::move(valued));
+    _hasValues = true;
 }
 
 void MapScene::activate(osg::Group& group)
@@ -171,14 +223,21 @@ void MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
         label.key = label.identifier = from.identifier;
         label.style = from.style;
         label.width = from.width;
-        label.own = features.getRange(from.feature);
+        label.feature = from.feature;
         labels.push_back(label);
     }
 }
 
-void MapScene::prepareValued(const osg::Matrixd& groupToEye, osg::Node::NodeMask mask,
-                             std::vector<EyeLabel>& labels)
+void MapScene::takeRanges(std::vector<EyeLabel>& labels)
 {
+    for (EyeLabel& label : labels)
+        label.own = label.part == FeatureTree::Scene ? features.getRange(label.feature)
+                                                     : features.getRangeOfPart(label.part);
+}
+
+void MapScene::prepareValued(osgUtil::CullVisitor& visitor, std::vector<EyeLabel>& labels)
+{
+    const osg::Matrixd groupToEye(*visitor.getModelViewMatrix());
     std::lock_guard<std::mutex> cullLock(_cullMutex);
     std::vector<MapFeatures::Valued> found;
     {
@@ -189,18 +248,22 @@ void MapScene::prepareValued(const osg::Matrixd& groupToEye, osg::Node::NodeMask
     {
         PreparedLabel label = texts.add(each.label);
         label.part = each.part;
-        _valued.push_back({each.path, label});
+        _valued.push_back({each.path, label, false});
     }
     for (Valued& each : _valued)
     {
         texts.update(each.label);
         osg::RefNodePath path;
         if (!each.path.getRefNodePath(path))
+        {
+            texts.remove(each.label);
+            each.isGone = true;
             continue;
+        }
         osg::NodePath nodes;
         for (const osg::ref_ptr<osg::Node>& node : path)
             nodes.push_back(node.get());
-        if (!isShown(nodes, mask))
+        if (!isShown(nodes, visitor))
             continue;
         EyeLabel label;
         label.anchor = each.label.anchor * osg::computeLocalToWorld(nodes) * groupToEye;
@@ -208,9 +271,12 @@ void MapScene::prepareValued(const osg::Matrixd& groupToEye, osg::Node::NodeMask
         label.key = label.identifier = each.label.identifier;
         label.style = each.label.style;
         label.width = each.label.width;
-        label.own = features.getRangeOfPart(each.label.part);
+        label.part = each.label.part;
         labels.push_back(label);
     }
+    _valued.erase(std::remove_if(_valued.begin(), _valued.end(),
+                                 [](const Valued& each) { return each.isGone; }),
+                  _valued.end());
 }
 
 } // namespace osgLabels

@@ -9,8 +9,9 @@
 namespace osgLabels
 {
 
-MapTexts::MapTexts(std::shared_ptr<GlyphSet> glyphs, StyleOf styleOf, MapFeatures& features)
-    : _glyphs(std::move(glyphs)), _styleOf(std::move(styleOf)), _features(features)
+MapTexts::MapTexts(std::shared_ptr<GlyphSet> glyphs, StyleOf styleOf, MapFeatures& features,
+                   const FramesInFlight& frames)
+    : _glyphs(std::move(glyphs)), _styleOf(std::move(styleOf)), _features(features), _frames(frames)
 {
     _table->setMessage([](const std::string& line)
                        { OSG_WARN << "osgLabels::MapLabels: " << line << std::endl; });
@@ -32,6 +33,12 @@ float MapTexts::widthOf(const LabelTable::Codes& codes) const
 
 std::uint32_t MapTexts::newIdentifier()
 {
+    _retired.release(_frames,
+                     [this](std::uint32_t identifier)
+                     {
+                         _table->remove(identifier);
+                         _free.push_back(identifier);
+                     });
     if (_free.empty())
     {
         _texts.emplace_back();
@@ -73,9 +80,8 @@ void MapTexts::forget(const std::vector<PreparedLabel>& labels, std::size_t firs
     for (std::size_t i = first; i < labels.size(); ++i)
     {
         const std::uint32_t identifier = labels[i].identifier;
-        _table->remove(identifier);
         _texts[identifier] = Text();
-        _free.push_back(identifier);
+        _retired.add(identifier, _frames);
     }
 }
 
@@ -130,6 +136,12 @@ PreparedLabel MapTexts::add(const MapLabel& label)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     return prepare(label, newIdentifier());
+}
+
+void MapTexts::remove(const PreparedLabel& label)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    forget({label}, 0);
 }
 
 bool MapTexts::isKnown(std::uint32_t identifier) const

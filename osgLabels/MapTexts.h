@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgLabels/FramesInFlight.h>
 #include <osgLabels/GlyphSet.h>
 #include <osgLabels/LabelTable.h>
 #include <osgLabels/MapFeatures.h>
@@ -27,18 +28,21 @@ struct PreparedLabel
 
 /// The texts of map labels: they have a table of their own, so that numbers of surface labels stay
 /// without gaps. Thread safe.
-class MapTexts
+class OSGLABELS_EXPORT MapTexts
 {
 public:
     /// The number of a named style; 0 for an empty name.
     using StyleOf = std::function<std::uint32_t(const std::string& name)>;
-    MapTexts(std::shared_ptr<GlyphSet> glyphs, StyleOf styleOf, MapFeatures& features);
+    /// Identifiers that `frames` may show are not given again.
+    MapTexts(std::shared_ptr<GlyphSet> glyphs, StyleOf styleOf, MapFeatures& features,
+             const FramesInFlight& frames);
 
     /// The labels of a node, as they are now; those that can't be shown are left out, which a node
     /// is said once. While nobody changes the node.
     std::shared_ptr<const std::vector<PreparedLabel>> of(const MapLabels& node);
-    /// A label that stays as long as this.
+    /// A label that stays until remove().
     PreparedLabel add(const MapLabel& label);
+    void remove(const PreparedLabel& label);
 
     /// False for an identifier that no label has.
     bool setText(std::uint32_t identifier, const std::string& text);
@@ -74,12 +78,14 @@ private:
     const std::shared_ptr<GlyphSet> _glyphs;
     const StyleOf _styleOf;
     MapFeatures& _features;
+    const FramesInFlight& _frames;
     const std::shared_ptr<LabelTable> _table = std::make_shared<LabelTable>();
     mutable std::mutex _mutex;
     std::unordered_map<const MapLabels*, Known> _known;
     std::size_t _sweepAt = 64;
     std::vector<Text> _texts{1}; ///< By identifier.
     std::vector<std::uint32_t> _free;
+    Retired<std::uint32_t> _retired;
 };
 
 } // namespace osgLabels

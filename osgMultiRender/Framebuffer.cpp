@@ -107,6 +107,7 @@ FramebufferVisit::~FramebufferVisit()
     (_hasScissor ? glEnable : glDisable)(GL_SCISSOR_TEST);
     _state.haveAppliedMode(GL_SCISSOR_TEST, _hasScissor);
     _state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
+    _state.haveAppliedAttribute(osg::StateAttribute::VIEWPORT);
 }
 
 } // namespace osgMultiRender

@@ -2,6 +2,7 @@
 // The draw half of SurfaceFrame; SurfaceFrame.cpp resolves.
 #include <osgMultiRender/SurfaceFrame.h>
 
+#include <osgMultiRender/PassState.h>
 #include <osgMultiRender/ProgramWrap.h>
 
 #include <osg/GLExtensions>
@@ -134,10 +135,8 @@ std::size_t SurfaceFrame::drawAs(osg::RenderInfo& renderInfo, const osg::StateSe
     std::stable_sort(items.begin(), items.end(),
                      [](const SurfaceItem& a, const SurfaceItem& b)
                      { return std::less<>()(a.variant, b.variant); });
-    osg::State& state = *renderInfo.getState();
-    state.pushStateSet(&over);
+    const PassState pass(*renderInfo.getState(), over);
     draw(renderInfo, items.data(), items.size());
-    state.popStateSet();
     return refused;
 }
 

@@ -2,6 +2,7 @@
 #include <osgShadowVolume/VolumeShadows.h>
 
 #include <osgMultiRender/DrawTarget.h>
+#include <osgMultiRender/PassState.h>
 #include <osgShadowVolume/CasterDraw.h>
 #include <osgShadowVolume/DepthBounds.h>
 #include <osgShadowVolume/EnumNames.h>
@@ -148,7 +149,7 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
                        osg::StateAttribute::OVERRIDE);
-    state.pushStateSet(base);
+    const osgMultiRender::PassState pushed(state, *base);
     drawDepths(renderInfo, frame, isReceiver);
     makeMask(renderInfo, used, -1);
     for (_layers = 0; _layers < layout.layers; ++_layers)
@@ -157,7 +158,6 @@ void VolumeShadows::draw(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFra
             break;
         makeMask(renderInfo, used, _layers);
     }
-    state.popStateSet();
     _lookUp = new osg::StateSet;
     _lookUp->setTextureAttribute(ShadowTargets::MaskUnit, _targets->getMask(),
                                  osg::StateAttribute::OVERRIDE);
@@ -384,7 +384,7 @@ void VolumeShadows::showVolumes(osg::RenderInfo& renderInfo)
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
     base->setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
                        osg::StateAttribute::OVERRIDE);
-    state.pushStateSet(base);
+    const osgMultiRender::PassState pushed(state, *base);
     const CasterDraw::View view{renderInfo, _resources,      _technique,
                                 _tier,      getProjection(), _frameNumber};
     for (std::size_t light = 0; light < getLights().size(); ++light)
@@ -398,7 +398,6 @@ void VolumeShadows::showVolumes(osg::RenderInfo& renderInfo)
             draw.add(getMesh(caster), getCasters()[caster].modelview);
         draw.run(ShadowPasses::Count::Shown);
     }
-    state.popStateSet();
 }
 
 void VolumeShadows::drawn(osg::RenderInfo& renderInfo)

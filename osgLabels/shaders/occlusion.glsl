@@ -4,7 +4,7 @@
 const int osgLabels_Hide = 0, osgLabels_Outline = 1, osgLabels_Recolor = 2, osgLabels_Fade = 3, osgLabels_Ignore = 4;
 
 #if OSGLABELS_LAYERS > 0
-uniform usampler2DArray osgLabels_near; // number, distance
+uniform usampler2DArray osgLabels_nearFace; // number, distance
 #ifdef OSGLABELS_NEXT
 uniform usampler2DArray osgLabels_next;
 #endif
@@ -35,7 +35,7 @@ int osgLabels_actionAt(ivec2 p, float distance, uvec2 own)
     float back = -1.0;
     for (int i = 0; i < OSGLABELS_LAYERS; ++i)
     {
-        uvec2 near = texelFetch(osgLabels_near, ivec3(p, i), 0).rg, next = osgLabels_nextAt(p, i);
+        uvec2 near = texelFetch(osgLabels_nearFace, ivec3(p, i), 0).rg, next = osgLabels_nextAt(p, i);
         bool isNear = osgLabels_isOwn(near.x, own), isNext = osgLabels_isOwn(next.x, own);
         foreign[i] = isNear ? (isNext ? uvec2(0u) : next) : near;
         float found = isNear ? uintBitsToFloat(near.y) : isNext ? uintBitsToFloat(next.y) : -1.0;

@@ -116,3 +116,15 @@ TEST(FeatureTree, countsWhenNumbersChange)
     tree.getNumber(house);
     EXPECT_EQ(tree.getModifiedCount(), after);
 }
+
+TEST(FeatureTree, aKeyThatComesAgainWithAnotherNameIsAnotherPart)
+{
+    FeatureTree tree;
+    const auto house = tree.use("house"), barn = tree.use("barn");
+    const auto first = tree.add(FeatureTree::Scene, 1, "house");
+    const auto second = tree.add(FeatureTree::Scene, 1, "barn");
+    EXPECT_TRUE(isIn(tree.getNumber(second), tree.getRange(barn)));
+    EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
+    EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "barn"), second);
+    EXPECT_TRUE(isIn(tree.getNumber(first), tree.getRange(house)));
+}

@@ -5,6 +5,7 @@
 #include <support/NotifyCapture.h>
 
 #include <osg/Camera>
+#include <osg/LOD>
 #include <osg/Switch>
 #include <osg/ValueObject>
 #include <osgGA/EventQueue>
@@ -153,6 +154,47 @@ TEST_F(MapChange, labelsByValueGoWithTheirNodes)
     EXPECT_EQ(redPixels(*drawOne(*top)), all);
     choice->removeChild(valued);
     EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "taken out, while somebody keeps it";
+}
+
+TEST_F(MapChange, labelsByValueGoWithLevelsOfDetail)
+{
+    osg::ref_ptr<osg::Geode> valued = box("own", {0, 1, -0.6f}, {0.2f, 0.1f, 0.2f});
+    valued->setUserValue("label", std::string("by value"));
+    osg::ref_ptr<osg::LOD> levels = new osg::LOD;
+    levels->addChild(valued, 0.0f, 100.0f);
+    const auto top = scene({half(), levels}, "map=values");
+    const int all = redPixels(*render(*top));
+    EXPECT_GT(all, 100);
+    levels->setRange(0, 50.0f, 100.0f);
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "too near";
+    levels->setRangeMode(osg::LOD::PIXEL_SIZE_ON_SCREEN);
+    levels->setRange(0, 1.0f, 1000.0f);
+    EXPECT_EQ(redPixels(*drawOne(*top)), all);
+    levels->setRange(0, 1000.0f, 2000.0f);
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0) << "too small";
+}
+
+TEST_F(MapChange, labelsByValueNeedNoDrawableInView)
+{
+    osg::ref_ptr<osg::Geode> valued = box("own", {0, 0, -1.35f}, {0.2f, 0.1f, 0.3f});
+    valued->setUserValue("label", std::string("by value"));
+    EXPECT_GT(redPixels(*render(*scene({valued}, "map=values,mapleader=60"))), 100);
+}
+
+TEST_F(MapChange, labelsByValueDieWithTheirNodes)
+{
+    const auto top = scene({half()}, "map=values");
+    for (int i = 0; i < 5; ++i)
+    {
+        // Nodes that die leave their addresses to those that follow.
+        osg::ref_ptr<osg::Geode> valued = box("own", {0, 1, -0.6f}, {0.2f, 0.1f, 0.2f});
+        valued->setUserValue("label", std::string("by value"));
+        top->addChild(valued);
+        EXPECT_GT(redPixels(*render(*top)), 100) << "node " << i;
+        top->removeChild(valued);
+        valued = nullptr;
+        EXPECT_EQ(redPixels(*render(*top)), 0) << "node " << i;
+    }
 }
 
 TEST_F(MapChange, aPriorityByValueThatIsNoNumberIsNamed)

@@ -58,6 +58,26 @@ TEST_F(MapStates, aLabelKeepsItsStateForASecond)
     EXPECT_TRUE(isShown(*top, 0.2, 2.15));
 }
 
+TEST_F(MapStates, eachPictureOfASceneInTwoPlacesKeepsItsOwn)
+{
+    const auto top = scene({before(), label("longer text", {})}, "maptest=anchor");
+    osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(top);
+    root->addChild(top);
+    const auto isSeen = [&](double x, double seconds)
+    {
+        static_cast<osgLabels::MapLabels&>(*top->getChild(1))
+            .setLabels({{{x, 0, 0}, "longer text", 0, {}, {}}});
+        setTime(seconds);
+        return redPixels(*render(*root, labelScene::fromFront(), labelScene::Width,
+                                 labelScene::Height, 1)) > 0;
+    };
+    EXPECT_TRUE(isSeen(0.2, 1.0));
+    EXPECT_FALSE(isSeen(-0.2, 1.1));
+    EXPECT_FALSE(isSeen(0.2, 1.5)) << "it was hidden 0.4 s ago";
+    EXPECT_TRUE(isSeen(0.2, 2.15));
+}
+
 TEST_F(MapStates, sharesNearAHalfChangeNothing)
 {
     const auto top = scene({before(), label("longer text", {})}, "maptest=share");
