@@ -8,6 +8,7 @@
 #include FT_OUTLINE_H
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -19,6 +20,9 @@ namespace
 
 /// Pixels an em at which outlines are read: 26.6 numbers then hold coordinates of all font units.
 constexpr FT_UInt ReadSize = 1024;
+
+/// In em. No letter is wider, whatever a damaged file says, and no cell: images are so large.
+constexpr float WidestLetter = 16.0f, WidestCell = 4.0f, NarrowestCell = 0.05f;
 
 std::string describe(FT_Error error)
 {
@@ -120,9 +124,11 @@ std::string FontFace::load()
         descent = static_cast<double>(-face->size->metrics.descender);
         height = static_cast<double>(face->size->metrics.ascender) + descent;
     }
-    if (!(height > 0.0)) // broken metrics: the font's own em, with the usual share of descenders
+    const double em = 64.0 * std::max<int>(1, face->size->metrics.y_ppem);
+    // Broken metrics: the font's own em, with the usual share of descenders.
+    if (height < 0.2 * em || height > 8.0 * em || std::abs(descent) > height)
     {
-        height = 64.0 * std::max<int>(1, face->size->metrics.y_ppem);
+        height = em;
         descent = 0.2 * height;
     }
     _scale = static_cast<float>(1.0 / height);
@@ -158,7 +164,8 @@ float FontFace::getAdvanceLocked(std::uint32_t glyph) const
 {
     if (FT_Load_Glyph(_native->face, glyph, getLoadFlags(_native->face)))
         return 0.0f;
-    return static_cast<float>(_native->face->glyph->advance.x) * _scale;
+    const float advance = static_cast<float>(_native->face->glyph->advance.x) * _scale;
+    return std::clamp(advance, 0.0f, WidestLetter);
 }
 
 float FontFace::getAdvance(std::uint32_t glyph) const
@@ -176,7 +183,8 @@ float FontFace::getCellAdvance() const
             widest = std::max(widest, getAdvanceLocked(glyph));
     // A font without Latin letters: its own widest glyph, but no wider than a line is high.
     const float all = static_cast<float>(_native->face->size->metrics.max_advance) * _scale;
-    return widest > 0.0f ? widest : all > 0.0f ? std::min(all, 1.0f) : 0.5f;
+    const float cell = widest > 0.0f ? widest : all > 0.0f ? std::min(all, 1.0f) : 0.5f;
+    return std::clamp(cell, NarrowestCell, WidestCell);
 }
 
 GlyphOutline FontFace::getOutline(std::uint32_t glyph) const

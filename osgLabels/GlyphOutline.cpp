@@ -23,6 +23,13 @@ void GlyphOutline::transform(const glm::vec2& scale, const glm::vec2& offset)
             point = point * scale + offset;
 }
 
+void GlyphOutline::clamp(const glm::vec2& low, const glm::vec2& high)
+{
+    for (std::vector<glm::vec2>& contour : contours)
+        for (glm::vec2& point : contour)
+            point = glm::clamp(point, low, high);
+}
+
 OutlineBounds getBounds(const GlyphOutline& outline)
 {
     OutlineBounds bounds;

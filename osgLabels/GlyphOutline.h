@@ -22,6 +22,9 @@ struct OSGLABELS_EXPORT GlyphOutline
 
     /// Each point becomes point * scale + offset.
     void transform(const glm::vec2& scale, const glm::vec2& offset);
+
+    /// Moves points that lie outside of a rectangle onto its sides.
+    void clamp(const glm::vec2& low, const glm::vec2& high);
 };
 
 struct OutlineBounds

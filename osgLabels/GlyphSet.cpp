@@ -12,6 +12,9 @@ namespace osgLabels
 namespace
 {
 
+/// In em: what damaged fonts may not exceed. Images show letters up to the second.
+constexpr float Widest = 16.0f, WidestImage = 4.0f;
+
 /// What the same glyphs at the same offsets have in common. A glyph alone in its place is the same
 /// whether it was shaped or not, however its advance was rounded.
 std::string getKey(const ShapedCluster& cluster)
@@ -114,10 +117,10 @@ std::shared_ptr<const Glyph> GlyphSet::make(const ShapedCluster& cluster) const
     for (const ShapedGlyph& part : cluster.glyphs)
         glyph->outline.append(_face->getOutline(part.glyph), part.offset);
     const OutlineBounds bounds = getBounds(glyph->outline);
-    float advance = cluster.advance;
+    float advance = std::min(cluster.advance, Widest);
     if (!(advance > 0.0f)) // a mark alone: as wide as its ink
     {
-        advance = std::max(0.05f, bounds.high.x - bounds.low.x);
+        advance = std::clamp(bounds.high.x - bounds.low.x, 0.05f, Widest);
         glyph->outline.transform(glm::vec2(1.0f), glm::vec2(-bounds.low.x, 0.0f));
     }
     glyph->advance = advance;
@@ -128,6 +131,8 @@ std::shared_ptr<const Glyph> GlyphSet::make(const ShapedCluster& cluster) const
         glyph->outline.transform(glm::vec2(scale, 1.0f), glm::vec2(0.5f * rest, 0.0f));
         glyph->advance = _cellAdvance;
     }
+    // Damaged fonts have points anywhere; no image reaches so far.
+    glyph->outline.clamp(glm::vec2(-1.0f), {std::min(glyph->advance, WidestImage) + 1.0f, 2.0f});
     return glyph;
 }
 

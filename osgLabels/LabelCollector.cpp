@@ -4,6 +4,7 @@
 #include <osgLabels/PrimitiveRun.h>
 
 #include <osg/NodeVisitor>
+#include <osg/Transform>
 
 #include <algorithm>
 
@@ -160,6 +161,7 @@ std::uint32_t LabelCollector::addObject(const osg::Drawable& drawable, const osg
     const auto object = static_cast<std::uint32_t>(placeIn(_objects, _freeObjects));
     _objects[object].drawable = &drawable;
     _objects[object].identifier = addLabel(*found, path, object);
+    _objects[object].scale = _scales.numberOf(drawable, osg::computeLocalToWorld(below));
     _new.push_back(object);
     return object;
 }
@@ -314,6 +316,12 @@ LabelCollector::Object LabelCollector::getObject(std::uint32_t object) const
     Object found = object < _objects.size() ? _objects[object] : Object();
     found.identifier = identifierOf(found.identifier);
     return found;
+}
+
+const osg::Matrixd* LabelCollector::getScale(const Object& object) const
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _scales.get(object.scale);
 }
 
 std::uint32_t LabelCollector::getObject(const osg::Group& group, const osg::NodePath& path)

@@ -7,6 +7,7 @@
 #include <osgLabels/LabelTable.h>
 #include <osgLabels/NumberSpace.h>
 #include <osgLabels/Stretches.h>
+#include <osgLabels/UnevenScale.h>
 
 #include <osg/Drawable>
 #include <osg/Group>
@@ -68,6 +69,7 @@ public:
     {
         osg::ref_ptr<const osg::Drawable> drawable; ///< Null for a number that is free.
         std::uint32_t identifier = 0;               ///< Of its label.
+        std::uint32_t scale = 0;                    ///< Of UnevenScales, as it was found.
     };
 
     /// Finds all objects of the subgraph, in the order of a traversal of all children.
@@ -83,6 +85,11 @@ public:
         /// instances are counted through once a view. Below an AutoTransform or an absolute one
         /// the nearest instance is taken.
         std::uint32_t find(const osg::Drawable& drawable, const osg::Matrixd& localToEye);
+        /// What scales an object unevenly; null for none.
+        const osg::Matrixd* scaleOf(std::uint32_t object) const
+        {
+            return _collector._scales.get(_collector._objects[object].scale);
+        }
 
     private:
         LabelCollector& _collector;
@@ -103,6 +110,8 @@ public:
     /// The objects that are new since the last call; their numbers may have been others' before.
     std::vector<std::uint32_t> takeNew();
     Object getObject(std::uint32_t object) const;
+    /// What scales it unevenly, while the collector lives; null for none.
+    const osg::Matrixd* getScale(const Object& object) const;
     /// The object that a path from the group to a Drawable is; 0 for no label.
     std::uint32_t getObject(const osg::Group& group, const osg::NodePath& path);
     std::uint32_t getObjectCount() const; ///< All numbers are under it, the free ones too.
@@ -173,6 +182,7 @@ private:
     std::vector<std::size_t> _freeEntries;
     std::vector<std::unique_ptr<Instances>> _instances; ///< 0 is none.
     std::vector<std::uint32_t> _freeInstances;
+    UnevenScales _scales;
     std::vector<Object> _objects; ///< 0 is none. Their identifiers are indices in _labels.
     std::vector<std::uint32_t> _freeObjects, _new;
     Retired<std::uint32_t> _retiredObjects, _retiredLabels;

@@ -71,6 +71,14 @@ void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::Surfa
                             const std::vector<const osgUtil::RenderLeaf*>& leaves)
 {
     std::vector<std::pair<const osgUtil::RenderLeaf*, std::uint32_t>> objects;
+    const auto addObject = [&](LabelCollector::View& view, const osgUtil::RenderLeaf& leaf)
+    {
+        const std::uint32_t object = view.find(
+            *leaf._drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
+        objects.emplace_back(&leaf, object);
+        if (const osg::Matrixd* scale = view.scaleOf(object))
+            _scales.emplace(&leaf, scale);
+    };
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());
         for (const osgUtil::RenderLeaf* leaf : leaves)
@@ -81,9 +89,7 @@ void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::Surfa
             else if (ChunkMesh::isOne(drawable))
                 addNumber(*leaf, _resources->objects.indexOf(1));
             else if (!isPoints(drawable))
-                objects.emplace_back(leaf, view.find(drawable, leaf->_modelview
-                                                                   ? osg::Matrixd(*leaf->_modelview)
-                                                                   : osg::Matrixd()));
+                addObject(view, *leaf);
         }
     }
     _resources->fitNew();

@@ -207,6 +207,12 @@ const osg::StateSet* LabelPass::startRun()
     return _under.get();
 }
 
+const osg::Matrixd* LabelPass::scaleOf(const osgUtil::RenderLeaf& leaf) const
+{
+    const auto found = _scales.find(&leaf);
+    return found == _scales.end() ? nullptr : found->second;
+}
+
 LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
 {
     const osg::Matrixd modelview =
@@ -219,7 +225,9 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
     for (int j = 0; j < 3; ++j)
         for (int i = 0; i < 4; ++i)
             clip(i, j) = projection(i, columns[j]);
-    const osg::Matrixd toLocal = inverseOf(modelview);
+    osg::Matrixd toLocal = inverseOf(modelview);
+    if (const osg::Matrixd* scale = scaleOf(leaf)) // the label's coordinates are scaled ones
+        toLocal = toLocal * *scale;
     const osg::Matrixd toEye = osg::Matrixd::inverse(clip);
     osg::Vec3d rows[9];
     for (int i = 0; i < 3; ++i)
@@ -240,7 +248,8 @@ LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const
 int LabelPass::numberOf(const osgUtil::RenderLeaf& leaf)
 {
     const auto [found, isNew] = _frameNumbers.emplace(
-        std::make_pair(leaf._modelview.get(), leaf._projection.get()), int(_frames.size()));
+        std::make_tuple(leaf._modelview.get(), leaf._projection.get(), scaleOf(leaf)),
+        int(_frames.size()));
     if (isNew)
         _frames.push_back(frameOf(leaf));
     const bool parallel = leaf._projection && isParallel(*leaf._projection);
@@ -273,10 +282,12 @@ void LabelPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::Surface
         gl->glUniform1i(program.getUniformLocation(baseName), index.base);
     const osg::Viewport* viewport = state.getCurrentViewport();
     const bool sameFrame = applied.isSet && applied.modelview == leaf._modelview.get() &&
-                           applied.projection == leaf._projection.get();
+                           applied.projection == leaf._projection.get() &&
+                           applied.scale == scaleOf(leaf);
     if (!(bits & Diverted) && (!applied.isSet || applied.viewport != viewport))
         setViewport(*gl, program, viewport);
-    applied = {leaf._modelview.get(), leaf._projection.get(), viewport, index.base, true};
+    applied = {
+        leaf._modelview.get(), leaf._projection.get(), scaleOf(leaf), viewport, index.base, true};
     if (sameFrame)
         return;
     const int frame = numberOf(leaf);

@@ -15,6 +15,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 namespace osgLabels
@@ -83,6 +84,7 @@ private:
     {
         const osg::RefMatrix* modelview = nullptr;
         const osg::RefMatrix* projection = nullptr;
+        const osg::Matrixd* scale = nullptr;
         const osg::Viewport* viewport = nullptr;
         GLint recordBase = 0;
         bool isSet = false;
@@ -93,6 +95,8 @@ private:
     void addLabel(const osgMultiRender::SurfaceKey& key,
                   osgMultiRender::SurfaceSnippet& snippet) const;
     static Index indexOf(const osgUtil::RenderLeaf& leaf, std::uint32_t number);
+    /// See UnevenScales; null for none.
+    const osg::Matrixd* scaleOf(const osgUtil::RenderLeaf& leaf) const;
     Frame frameOf(const osgUtil::RenderLeaf& leaf) const;
     /// Of the leaf's frame among those of this view; negative where rays are parallel.
     int numberOf(const osgUtil::RenderLeaf& leaf);
@@ -126,9 +130,11 @@ private:
     /// Labelled leaves in view: the index of their record; of a batch's run what is added to that
     /// of an object in its page; of a chunk that of the first object.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
+    std::unordered_map<const osgUtil::RenderLeaf*, const osg::Matrixd*> _scales; ///< Of few.
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;
-    std::map<std::pair<const osg::RefMatrix*, const osg::RefMatrix*>, int> _frameNumbers;
+    std::map<std::tuple<const osg::RefMatrix*, const osg::RefMatrix*, const osg::Matrixd*>, int>
+        _frameNumbers;
     /// What this picture is asked, by PickAsker, and what lies there, as far as is drawn.
     struct Asked
     {

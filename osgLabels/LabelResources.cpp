@@ -8,7 +8,7 @@
 #include <osg/Notify>
 
 #include <algorithm>
-#include <unordered_map>
+#include <map>
 
 namespace osgLabels
 {
@@ -113,17 +113,19 @@ void LabelResources::fitNew()
 {
     if (!collector)
         return;
-    std::unordered_map<const osg::Drawable*, ObjectRecord> fitted; // instances share theirs
+    // Instances share theirs.
+    std::map<std::pair<const osg::Drawable*, std::uint32_t>, ObjectRecord> fitted;
     for (const std::uint32_t object : collector->takeNew())
     {
         const LabelCollector::Object found = collector->getObject(object);
         if (!found.drawable)
             continue;
-        auto record = fitted.find(found.drawable.get());
+        const auto key = std::make_pair(found.drawable.get(), found.scale);
+        auto record = fitted.find(key);
         if (record == fitted.end())
             record = fitted
-                         .emplace(found.drawable.get(),
-                                  recordOf(*found.drawable, settings.texCoord, found.identifier))
+                         .emplace(key, recordOf(*found.drawable, collector->getScale(found),
+                                                settings.texCoord, found.identifier))
                          .first;
         record->second.identifier = found.identifier;
         objects.set(object, record->second);

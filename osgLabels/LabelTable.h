@@ -59,8 +59,8 @@ public:
     LabelTable& operator=(const LabelTable&) = delete;
 
     /// For texts in proportional fonts, before the first one: how far each code reaches, in em. The
-    /// width of a text and sums of its advances are then stored with it, as TextStore tells: about
-    /// 4 bytes for each 16 codes. `advanceOf` is called while the table is locked, from the thread
+    /// width of a text of 32 codes and more and sums of its advances are then stored with it, as
+    /// TextStore tells: about 4 bytes for each 16 codes. `advanceOf` is called while the table is locked, from the thread
     /// that sets, and must not use the table.
     void setAdvances(AdvanceOf advanceOf);
 

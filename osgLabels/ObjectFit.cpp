@@ -41,8 +41,11 @@ FittedShape moved(FittedShape fit, const osg::Matrixd& matrix, double factor)
 
 } // namespace
 
-ObjectRecord recordOf(const osg::Drawable& drawable, int texCoord, std::uint32_t identifier)
+ObjectRecord recordOf(const osg::Drawable& drawable, const osg::Matrixd* scale, int texCoord,
+                      std::uint32_t identifier)
 {
+    if (const osg::Geometry* geometry = scale ? drawable.asGeometry() : nullptr)
+        return recordOf(*geometry, *scale, texCoord, identifier);
     if (const osg::Geometry* geometry = texCoord < 0 ? nullptr : drawable.asGeometry())
     {
         const FittedShape fit = fitTexCoords(*geometry, unsigned(texCoord));
@@ -68,7 +71,7 @@ ObjectRecord recordOf(const osg::Geometry& geometry, const osg::Matrixd& matrix,
             vertices->push_back(osg::Vec3(osg::Vec3d(v) * matrix));
         copy->setVertexArray(vertices);
     }
-    return recordOf(*copy, texCoord, identifier);
+    return recordOf(*copy, nullptr, texCoord, identifier);
 }
 
 } // namespace osgLabels

@@ -35,7 +35,7 @@ unsigned int TextStore::headOf(std::size_t length) const
 
 std::size_t TextStore::sumsOf(std::size_t length) const
 {
-    return _advanceOf ? (length + SumStep - 1) / SumStep : 0;
+    return _advanceOf && length >= LeastSummed ? (length + SumStep - 1) / SumStep : 0;
 }
 
 std::size_t TextStore::spaceOf(std::size_t length) const
@@ -82,7 +82,7 @@ TextStore::Row TextStore::write(std::uint32_t offset, const std::uint32_t* codes
     for (std::size_t i = 0; i < length; ++i, at += _bits)
         writeBits(to.data(), at, _bits, codes[i]);
     double sum = 0.0;
-    for (std::size_t i = 0; _advanceOf && i < length; ++i)
+    for (std::size_t i = 0; sumsOf(length) && i < length; ++i)
     {
         sum += double(_advanceOf(codes[i]));
         if ((i + 1) % SumStep && i + 1 < length)

@@ -20,8 +20,9 @@ namespace osgLabels
 /// 63 codes and more, which starts with its length less one in LengthBits bits, padded to whole
 /// codes. Row 0 is no text.
 ///
-/// With advances given, behind a text's codes stand sums of them, floats of 32 bits each: of the
-/// first 16 codes, of the first 32, and so on; the last one is of all codes.
+/// With advances given, behind the codes of a text of LeastSummed codes and more stand sums of
+/// them, floats of 32 bits each: of the first 16 codes, of the first 32, and so on; the last one is
+/// of all codes. Shorter texts have none: these would be half of their size.
 class OSGLABELS_EXPORT TextStore
 {
 public:
@@ -32,7 +33,8 @@ public:
     static constexpr unsigned int MaxBits = 20; ///< Of a code.
     static constexpr std::uint32_t Escape = 63; ///< In the length bits of a row.
     static constexpr unsigned int LengthBits = 10;
-    static constexpr std::size_t SumStep = 16; ///< Codes from one sum to the next.
+    static constexpr std::size_t SumStep = 16;     ///< Codes from one sum to the next.
+    static constexpr std::size_t LeastSummed = 32; ///< Length from which on texts have sums.
 
     using AdvanceOf = std::function<float(std::uint32_t code)>;
 

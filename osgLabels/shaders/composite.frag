@@ -32,17 +32,17 @@ osgLabels_Frame osgLabels_frameOf(int number)
 
 osgLabels_Place osgLabels_placeOf(osgLabels_Object object, uvec4 surface, ivec2 p, float width)
 {
-#ifdef OSGLABELS_TEXTURED
-    if ((object.shape & 0xffu) == 10u)
-        return osgLabels_locateTextured(
-            object, texelFetch(osgLabels_texCoords, p, osgLabels_sample).xy,
-            texelFetch(osgLabels_changes, p, osgLabels_sample), width);
-#endif
     osgLabels_Surface at;
     at.parallel = int(surface.y) < 0;
     at.distance = uintBitsToFloat(surface.z);
     at.dx = uintBitsToFloat(surface.w << 16);
     at.dy = uintBitsToFloat(surface.w & 0xffff0000u);
+#ifdef OSGLABELS_TEXTURED
+    if ((object.shape & 0xffu) == 10u)
+        return osgLabels_locateTextured(
+            object, at, texelFetch(osgLabels_texCoords, p, osgLabels_sample).xy,
+            texelFetch(osgLabels_changes, p, osgLabels_sample), width);
+#endif
     return osgLabels_locate(object, osgLabels_frameOf(int(surface.y)), at, width);
 }
 
@@ -54,20 +54,27 @@ ivec2 osgLabels_texelAt(vec2 pixel)
     return p;
 }
 
-// The mean colour of the surface along a text's line, as far as it is in view; where none of it is,
-// of what hides its middle.
-vec3 osgLabels_seen(osgLabels_Place at, uint record)
+// The mean colour of the surface at three places along a text's line, as far as they are in view.
+// Where none is, of the first of others that is: between them and, as something long may lie along
+// the line, over and under it. `here` where all of these are hidden. But for that, it is the same for
+// all pixels of a text; it is never the colour of what hides it.
+vec3 osgLabels_seen(osgLabels_Place at, uint record, float width, vec3 here)
 {
     vec2 low = osgLabels_viewport.xy, high = low + 2.0 / osgLabels_viewport.zw - 1.0;
+    vec2 middle = at.onLine[1].xy;
+    vec2 along = 0.5 * (at.onLine[2].xy - at.onLine[0].xy); // a third of the text
+    vec2 over = vec2(-along.y, along.x) * (1.2 / max(width, 1.2)); // 0.4 em
     vec4 sum = vec4(0.0);
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < 3 || (i < 3 + 21 && sum.a == 0.0); ++i)
     {
-        ivec2 p = osgLabels_texelAt(clamp(at.onLine[i].xy, low, high));
+        int other = max(i - 3, 0);
+        vec2 off = float(other % 7 - 3) * 0.46 * along + float((other / 7 + 1) % 3 - 1) * over;
+        vec2 pixel = i < 3 ? at.onLine[i].xy : middle + off;
+        ivec2 p = osgLabels_texelAt(clamp(pixel, low, high));
         bool isOwn = texelFetch(osgLabels_surfaces, p, 0).x == record;
-        float weight = isOwn ? 1.0 : i == 1 ? 1e-6 : 0.0;
-        sum += weight * vec4(texelFetch(osgLabels_color, p, 0).rgb, 1.0);
+        sum += float(isOwn) * vec4(texelFetch(osgLabels_color, p, 0).rgb, 1.0);
     }
-    return sum.rgb / sum.a;
+    return sum.a > 0.0 ? sum.rgb / sum.a : here;
 }
 
 void main()
@@ -84,10 +91,11 @@ void main()
         osgLabels_Text text = osgLabels_textOf(object.id);
         if (text.length > 0)
         {
-            osgLabels_Place at = osgLabels_placeOf(object, surface, p, osgLabels_width(text));
+            float width = osgLabels_width(text);
+            osgLabels_Place at = osgLabels_placeOf(object, surface, p, width);
             if (at.inside)
                 color = osgLabels_over(color, text, at, osgLabels_styleOf(object.id),
-                                       osgLabels_seen(at, surface.x));
+                                       osgLabels_seen(at, surface.x, width, color.rgb));
         }
     }
     osgmr_out0 = color;

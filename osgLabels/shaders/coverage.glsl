@@ -86,15 +86,25 @@ osgLabels_Cell osgLabels_neighbour(osgLabels_Text text, osgLabels_Cell cell, int
                           width);
 }
 
-#ifdef OSGLABELS_SUMS
 float osgLabels_width(osgLabels_Text text)
 {
-    return osgLabels_sumOf(text, (text.length + 15) >> 4);
+#ifdef OSGLABELS_SUMS
+    if (text.length >= OSGLABELS_SUMS)
+        return osgLabels_sumOf(text, (text.length + 15) >> 4);
+#endif
+    float width = 0.0;
+    for (int i = 0; i < text.length; ++i)
+        width += osgLabels_advanceAt(text, i);
+    return width;
 }
 
-// The first of those 16 letters among which a place lies: from there it is near.
+// A letter from which a place is near: with sums the first of those 16 among which it lies, else
+// the text's begin.
 osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
 {
+#ifdef OSGLABELS_SUMS
+    if (text.length < OSGLABELS_SUMS)
+        return osgLabels_Cell(-1, 0.0, 0.0);
     int low = 0, high = max(text.length - 1, 0) >> 4;
     while (low < high)
     {
@@ -105,21 +115,10 @@ osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
     }
     return osgLabels_Cell(16 * low, osgLabels_sumOf(text, low),
                           osgLabels_advanceAt(text, 16 * low));
-}
 #else
-float osgLabels_width(osgLabels_Text text)
-{
-    float width = 0.0;
-    for (int i = 0; i < text.length; ++i)
-        width += osgLabels_advanceAt(text, i);
-    return width;
-}
-
-osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
-{
     return osgLabels_Cell(-1, 0.0, 0.0);
-}
 #endif
+}
 #else
 osgLabels_Cell osgLabels_near(osgLabels_Text text, float x)
 {

@@ -17,7 +17,7 @@ vec4 osgLabels_direct(vec4 color, int index, vec2 texCoord, vec4 change)
     float width = osgLabels_width(text);
     osgLabels_Place at;
     if ((object.shape & 0xffu) == 10u)
-        at = osgLabels_locateTextured(object, texCoord, change, width);
+        at = osgLabels_locateTextured(object, surface, texCoord, change, width);
     else
         at = osgLabels_locate(
             object,

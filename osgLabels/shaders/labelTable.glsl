@@ -78,9 +78,9 @@ uint osgLabels_code(osgLabels_Text text, int i)
     return osgLabels_bits((text.offset + uint(i)) * osgLabels_layout.x, osgLabels_layout.x);
 }
 
-// Of a text in a proportional font, the advances of its first 16 * count letters, or of all where
-// it has fewer: em. 16 * (count - 1) < length.
-#define OSGLABELS_SUMS
+// Of a text of at least OSGLABELS_SUMS letters in a proportional font, the advances of its first
+// 16 * count letters, or of all where it has fewer: em. 16 * (count - 1) < length.
+#define OSGLABELS_SUMS 32
 float osgLabels_sumOf(osgLabels_Text text, int count)
 {
     if (count <= 0)

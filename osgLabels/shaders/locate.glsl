@@ -76,7 +76,8 @@ osgLabels_Place osgLabels_locate(osgLabels_Object object, osgLabels_Frame frame,
 }
 
 // A label that follows texture coordinates.
-osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, vec2 at, vec4 change, float width)
+osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, osgLabels_Surface surface,
+                                         vec2 at, vec4 change, float width)
 {
     osgLabels_View view;
     view.base = vec3(0.0);
@@ -89,11 +90,14 @@ osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, vec2 at, vec4 
     osgLabels_Place result =
         osgLabels_placeOn(object, vec3(at - object.origin.xy, 0.0), vec3(change.xy, 0.0),
                           vec3(change.zw, 0.0), view, width);
-    // As if the surface were flat and far away: only the ink's colour depends on it.
+    // As if the surface were flat: only the ink's colour depends on it. In perspective what lies
+    // farther away by a share is nearer on the screen by that.
     mat2 toPixels = inverse(result.footprint);
+    vec2 farther = vec2(surface.dx, surface.dy) / (surface.parallel ? 1e30 : surface.distance);
     for (int i = 0; i < 3; ++i)
-        result.onLine[i].xy =
-            gl_FragCoord.xy +
-            toPixels * (vec2((float(i) + 0.5) * 0.3333333 * width, 0.5) - result.place);
+    {
+        vec2 off = toPixels * (vec2((float(i) + 0.5) * 0.3333333 * width, 0.5) - result.place);
+        result.onLine[i].xy = gl_FragCoord.xy + off / max(1.0 + dot(farther, off), 1e-3);
+    }
     return result;
 }

@@ -10,7 +10,7 @@ if [ ! -f build-fuzz/build.ninja ]; then
     cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
         -DOSGKITS_BUILD_FUZZERS=ON -DOSGKITS_BUILD_TESTS=OFF -DOSGKITS_BUILD_EXAMPLES=OFF >/dev/null
 fi
-cmake --build build-fuzz --target {GlslSource,Merger,Jpeg,ChainFile}{Fuzz,Corpus}
+cmake --build build-fuzz --target {GlslSource,Merger,Jpeg,ChainFile,Font}{Fuzz,Corpus}
 
 # run <name> [flag]: <name>Fuzz on what <name>Corpus writes.
 run() {
@@ -19,9 +19,9 @@ run() {
     writer=$(find build-fuzz -name "$1Corpus" -type f -perm -u+x | head -n 1)
     mkdir -p "$corpus"
     "$writer" "$corpus"
-    "$fuzzer" "$corpus" "${@:2}" -max_total_time="$seconds" -timeout=2 \
+    "$fuzzer" "$corpus" -max_total_time="$seconds" -timeout=2 \
         -max_len=16384 -rss_limit_mb=4096 -artifact_prefix=build-fuzz/ -print_final_stats=1 \
-        -verbosity=1 >"$log" 2>&1 || {
+        -verbosity=1 "${@:2}" >"$log" 2>&1 || {
         tail -n 40 "$log" >&2
         echo "tests/fuzz/run.sh: $1Fuzz found something: $log" >&2
         exit 1
@@ -34,3 +34,4 @@ run GlslSource -dict=tests/fuzz/glsl.dict
 run Merger -dict=tests/fuzz/glsl.dict
 run Jpeg
 run ChainFile
+run Font -max_len=65536 -timeout=10

@@ -184,7 +184,7 @@ TEST(CoverageGLTest, lettersFoundBySumsAreThoseFoundFromTheStart)
     const CoveragePage page(glyphs);
     const osg::ref_ptr<GlyphAtlas> atlas = new GlyphAtlas(glyphs);
     atlas->update();
-    const std::string sums = "#define OSGLABELS_SUMS\n"
+    const std::string sums = "#define OSGLABELS_SUMS 32\n"
                              "float osgLabels_advanceAt(osgLabels_Text text, int index);\n"
                              "float osgLabels_sumOf(osgLabels_Text text, int count)\n"
                              "{\n"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgLabels/GlyphSet.h>
 
+#include <support/TemporaryFolder.h>
+
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -9,6 +11,7 @@
 
 using osgLabels::FontFace;
 using osgLabels::GlyphSet;
+using osgLabels::OutlineBounds;
 using osgLabels::Spacing;
 using osgLabels::TextShaper;
 
@@ -132,6 +135,39 @@ TEST(GlyphSetTest, inCellsNoGlyphIsWiderThanTheCell)
     const auto codes = proportional.codesOf("iW");
     EXPECT_LT(proportional.getGlyph(codes[0])->advance,
               0.5f * proportional.getGlyph(codes[1])->advance);
+}
+
+TEST(GlyphSetTest, lettersOfADamagedFontAreNoLargerThanTheirImages)
+{
+    std::string error;
+    const std::string intact = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    if (!FontFace::open(intact, error))
+        GTEST_SKIP() << "NOT TESTED: " << error;
+    std::ifstream file(intact, std::ios::binary);
+    std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    // 16 units an em instead of 2,048: all is 128 times larger.
+    const std::size_t entry = bytes.find("head");
+    ASSERT_NE(entry, std::string::npos);
+    std::size_t head = 0;
+    for (std::size_t i = 8; i < 12; ++i)
+        head = head << 8 | static_cast<unsigned char>(bytes[entry + i]);
+    bytes.replace(head + 18, 2, std::string("\0\x10", 2));
+    const support::TemporaryFolder folder;
+    const std::string damaged = folder.write("damaged.ttf", bytes);
+    for (const Spacing spacing : {Spacing::Cells, Spacing::Proportional})
+    {
+        const auto face = FontFace::open(damaged, error);
+        ASSERT_TRUE(face) << error;
+        const auto glyphs = std::make_shared<GlyphSet>(face, spacing);
+        for (const std::uint32_t code : glyphs->codesOf("AW"))
+        {
+            EXPECT_LE(glyphs->getGlyph(code)->advance, 16.0f);
+            const OutlineBounds bounds = getBounds(glyphs->getGlyph(code)->outline);
+            EXPECT_LE(bounds.high.x - bounds.low.x, 6.0f);
+            EXPECT_LE(bounds.high.y - bounds.low.y, 3.0f);
+        }
+        EXPECT_LE(glyphs->getCellAdvance(), 4.0f);
+    }
 }
 
 TEST(GlyphSetTest, threadsAgreeOnCodes)

@@ -182,6 +182,8 @@ TEST_P(LabelBuffersGLTest, sumsOfAdvancesReadBackForEachLength)
             {
                 const Read read = ask(std::uint32_t(length));
                 ASSERT_EQ(read.codes, sequence(length, 7, 63));
+                if (length < 32) // has none
+                    continue;
                 float sum = 0.0f; // exact for such advances
                 EXPECT_EQ(read.sums[0], 0.0f);
                 for (std::size_t i = 0; i < length; ++i)
@@ -352,6 +354,7 @@ TEST_P(LabelBuffersGLTest, twoMillionTextsStaySmallAndReadBack)
             codes[i] = number % 63;
         return codes;
     };
+    table->setAdvances([](std::uint32_t code) { return 0.5f + 0.01f * float(code); });
     for (std::uint32_t identifier = 1; identifier <= count; ++identifier)
         table->setCodes(identifier, tag(identifier));
     check(

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <tuple>
 #include <vector>
 
 using namespace labelScene;
@@ -87,10 +88,12 @@ std::vector<std::vector<int>> lettersOf(const osg::Image& marked)
 }
 
 /// Compares the model's labels in ink that chooses itself with the same in a colour of their own.
-Readings readingsOf(osg::Node* model, const support::CameraSpec& camera, const std::string& name)
+Readings readingsOf(osg::Node* model, const support::CameraSpec& camera, const std::string& name,
+                    const std::string& settings = "")
 {
-    const Picture marked = inkViewer().render(labelled(model, Marked), camera, Wide, High, 2);
-    const Picture picture = inkViewer().render(labelled(model), camera, Wide, High, 2);
+    const std::string both = Marked + (settings.empty() ? "" : "," + settings);
+    const Picture marked = inkViewer().render(labelled(model, both), camera, Wide, High, 2);
+    const Picture picture = inkViewer().render(labelled(model, settings), camera, Wide, High, 2);
     keep(picture, "labelInk." + name);
     const auto at = [](const osg::Image& image, int pixel)
     { return image.getColor(unsigned(pixel % Wide), unsigned(pixel / Wide)); };
@@ -261,4 +264,62 @@ TEST_F(LabelInk, surfacesThatAreLabelledAsTheyAreDrawnHaveOneInk)
     const auto board = painted([](float x, float) { return x; });
     board->getOrCreateStateSet()->setRenderBinDetails(10, "DepthSortedBin");
     expectReadable(readingsOf(board, fromFront(), "sorted"), "sorted");
+}
+
+TEST_F(LabelInk, whatHidesALineDoesNotChooseItsInk)
+{
+    // Over the middle of the line, all along or but for an end, a bar of the opposite brightness.
+    for (const float grey : {0.1f, 0.9f})
+        for (const float left : {-1.3f, -0.7f})
+        {
+            const osg::ref_ptr<osg::Group> group = new osg::Group;
+            group->addChild(painted([&](float, float) { return grey; }));
+            const float other = 1.0f - grey;
+            group->addChild(unlit(named("", rectangle({left, -0.5f, -0.04f}, {2.6f, 0, 0},
+                                                      {0, 0, 0.08f}, {other, other, other, 1}))));
+            const std::string name = "barred" + std::to_string(int(100.0f * (grey + left)));
+            const Readings found = readingsOf(group, fromFront(), name);
+            EXPECT_GE(found.letters, 7) << name;
+            EXPECT_EQ(grey < 0.5f ? found.black : found.white, 0) << name;
+            EXPECT_GT(grey < 0.5f ? found.white : found.black, 100) << name;
+        }
+}
+
+TEST_F(LabelInk, alongTextureCoordinatesFewPixelsHaveTheOtherInk)
+{
+    // The places by which ink is chosen are found as if the surface were flat: on what is bent some
+    // pixels find others.
+    const auto ramp = [](float x, float) { return x; };
+    const auto edge = [](float x, float) { return x < 0.46f ? 0.05f : 0.9f; };
+    const auto from = [](const osg::Vec3d& eye)
+    {
+        return support::CameraSpec::perspective(eye, {0, 0, 0}, {0, 0, 1}, 35.0,
+                                                double(Wide) / High, 0.1, 20.0);
+    };
+    const std::tuple<const char*, osg::ref_ptr<osg::Node>, support::CameraSpec> models[] = {
+        {"frontal", painted(ramp), fromFront()},
+        {"oblique", painted(ramp), from({2.6, -2.2, 0.3})},
+        {"near", painted(edge), from({1.6, -0.8, 0.2})},
+        {"cylinder", shiny(new osg::Cylinder(osg::Vec3(), 0.6f, 1.6f)), from({0.6, -3.2, 0.4})},
+        {"sphere", shiny(new osg::Sphere(osg::Vec3(), 0.9f)), from({0.6, -3.2, 0.4})}};
+    for (const auto& [name, model, camera] : models)
+    {
+        const Readings found =
+            readingsOf(model, camera, std::string("textured.") + name, "texcoord=0");
+        const bool isFlat = model->asGeode() != nullptr; // the others have a lamp
+        const double all = found.black + found.white;
+        const double other = std::min(found.black, found.white);
+        std::cout << name << ": " << found.letters << " letters, " << found.twoColored
+                  << " of two colours, " << 100.0 * other / std::max(1.0, all)
+                  << " % of the pixels have the other ink, contrast at least " << found.worst
+                  << "\n";
+        EXPECT_GT(found.letters, 0) << name;
+        if (isFlat)
+        {
+            expectReadable(found, name);
+            EXPECT_EQ(other, 0.0) << name;
+        }
+        // 14 and 17 % were measured; 36 and 37 % where perspective was left out.
+        EXPECT_LE(other, 0.25 * all) << name;
+    }
 }

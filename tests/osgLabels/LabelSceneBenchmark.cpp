@@ -3,9 +3,10 @@
 // path around them.
 //
 //   osgLabels.LabelSceneBenchmark [--size WxH] [--rounds N] [--path N] [--csv file]
-//       [--settings a=b] [--plain-only] model...
+//       [--settings a=b] [--against c=d] [--plain-only] model...
 //
-// plain is the model alone, off a LabelScene that shows no labels, on one that does. Printed are
+// plain is the model alone, off a LabelScene that shows no labels (with --against
+// one with those settings, that does), on one that does. Printed are
 // medians over rounds, for the path of the sums over its N places; ratios are of on to off and of
 // on to plain in the same round. --plain-only: for models that bring text of their own.
 #include <support/FrameTimer.h>
@@ -19,6 +20,7 @@
 #include <osgDB/ReadFile>
 
 #include <cstdio>
+#include <optional>
 
 namespace
 {
@@ -57,8 +59,9 @@ std::vector<support::CameraSpec> makePath(const osg::Node& model, int places, do
     return path;
 }
 
-bool load(const std::string& file, const osgLabels::LabelSettings& settings, int places,
-          double aspect, Candidate& candidate)
+bool load(const std::string& file, const osgLabels::LabelSettings& settings,
+          const std::optional<osgLabels::LabelSettings>& against, int places, double aspect,
+          Candidate& candidate)
 {
     const osg::Timer_t start = osg::Timer::instance()->tick();
     const osg::ref_ptr<osg::Node> model = osgDB::readRefNodeFile(file);
@@ -71,8 +74,8 @@ bool load(const std::string& file, const osgLabels::LabelSettings& settings, int
         candidate.cameras.push_back(camera);
     osg::ref_ptr<osgLabels::LabelScene> off = new osgLabels::LabelScene,
                                         on = new osgLabels::LabelScene;
-    off->setSettings(settings);
-    off->setShown(false);
+    off->setSettings(against.value_or(settings));
+    off->setShown(against.has_value());
     on->setSettings(settings);
     candidate.scenes[PLAIN] = new osg::Group;
     candidate.scenes[OFF] = off;
@@ -115,9 +118,13 @@ int main(int argc, char** argv)
     int places = 8;
     arguments.read("--path", places);
     osgLabels::LabelSettings settings;
+    std::optional<osgLabels::LabelSettings> against;
     std::string text;
     if (arguments.read("--settings", text))
         for (const std::string& error : parseLabelOptions(settings, text))
+            return std::fprintf(stderr, "%s\n", error.c_str()), 2;
+    if (arguments.read("--against", text))
+        for (const std::string& error : parseLabelOptions(against.emplace(), text))
             return std::fprintf(stderr, "%s\n", error.c_str()), 2;
     const int methods = arguments.read("--plain-only") ? 1 : int(NumMethods);
     if (!options.read(arguments))
@@ -132,7 +139,7 @@ int main(int argc, char** argv)
     for (int i = 1; i < arguments.argc(); ++i)
     {
         Candidate candidate;
-        if (!load(arguments[i], settings, places, timer.getAspect(), candidate))
+        if (!load(arguments[i], settings, against, places, timer.getAspect(), candidate))
             return std::fprintf(stderr, "%s can't be read\n", arguments[i]), 1;
         const osg::Timer_t start = osg::Timer::instance()->tick();
         timer.drawOnce(*candidate.scenes[methods - 1], candidate.cameras.front());

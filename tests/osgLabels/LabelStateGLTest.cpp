@@ -166,3 +166,30 @@ TEST_F(LabelState, theSampleMaskIsAsItWas)
     EXPECT_TRUE(isOn);
     EXPECT_EQ(mask, 0x5);
 }
+
+TEST_F(LabelState, whatHasWipedTheViewBetweenTwoBinsIsNotDrawnOver)
+{
+    // As a camera in the scene does. What the first bin had drawn into the labels' targets still
+    // lies there when the second one comes.
+    const auto wiped = [](bool hasFirst)
+    {
+        const osg::ref_ptr<osg::Group> objects = unlit(), all = new osg::Group;
+        if (hasFirst)
+            objects->addChild(board("First"));
+        const auto second = named(
+            "Second", rectangle({-0.3f, -0.5f, -0.2f}, {0.6f, 0, 0}, {0, 0, 0.4f}, {1, 1, 0, 1}));
+        second->getOrCreateStateSet()->setRenderBinDetails(10, "RenderBin");
+        objects->addChild(second);
+        all->addChild(labelled(objects));
+        all->addChild(new Call(
+            [](osg::State&)
+            {
+                glDepthMask(GL_TRUE);
+                glClearColor(0.0f, 0.5f, 0.0f, 1.0f);
+                glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+            },
+            5));
+        return render(*all);
+    };
+    EXPECT_TRUE(areEqual(wiped(true), wiped(false), "labelState.wiped"));
+}

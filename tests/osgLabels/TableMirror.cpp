@@ -85,7 +85,7 @@ std::vector<float> TableMirror::sumsOf(std::uint32_t identifier) const
     const std::size_t length = codesOf(identifier).size();
     const std::size_t head = length < 63 ? 0 : (10 + layout.bits - 1) / layout.bits;
     std::uint64_t at = ((std::uint64_t(row >> 6) << layout.shift) + head + length) * layout.bits;
-    std::vector<float> sums((length + 15) / 16);
+    std::vector<float> sums(length < 32 ? 0 : (length + 15) / 16);
     for (float& sum : sums)
     {
         const std::uint32_t word = bitsAt(at, 32);
