@@ -2,6 +2,7 @@
 #include <osgMultiRender/MixFrame.h>
 
 #include <osgMultiRender/DrawTarget.h>
+#include <osgMultiRender/MixLights.h>
 
 #include <osg/Notify>
 #include <osg/PolygonMode>
@@ -120,7 +121,12 @@ private:
         state.pushStateSet(&own);
         state.apply();
         if (const auto* applied = state.getLastAppliedProgramObject())
+        {
             program.valuesOf(draw.getSnapshot())->send(*applied, state);
+            MixLights lights;
+            lights.setProgram(*applied);
+            lights.send(state, this);
+        }
         if (state.getUseModelViewAndProjectionUniforms())
             state.applyModelViewAndProjectionUniformsIfRequired();
         targets.getTriangle().draw(renderInfo);
