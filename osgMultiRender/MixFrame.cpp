@@ -61,8 +61,7 @@ public:
                      << std::endl;
         const osg::Camera* camera = renderInfo.getCurrentCamera();
         plan.view = camera && !camera->getName().empty() ? camera->getName() : "camera";
-        std::lock_guard<std::mutex> lock(_resources->mutex);
-        _resources->framePlans[camera] = std::move(plan);
+        _resources->setFramePlan(camera, std::move(plan));
     }
 
 private:
