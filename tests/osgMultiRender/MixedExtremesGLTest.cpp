@@ -117,3 +117,31 @@ TEST_F(MixedExtremesGLTest, coincidentPointsAndALoopOfOneAreThatPoint)
             EXPECT_LE(support::difference(*draw(), *single, 1.0).worst, 1e-5) << int(mode);
         }
 }
+
+TEST_F(MixedExtremesGLTest, aHundredImportsOfOneFileShowWhatOneDoes)
+{
+    const support::TemporaryFolder folder;
+    const std::string file = folder.write(
+        "own.frag", "uniform vec3 tint; // = 0.25 0.5 0.75\nvec3 shade(vec3 c) { return c * c; }\n"
+                    "void main() { gl_FragColor = vec4(shade(tint), 1.0); }\n");
+    _scene->addRendering(importRendering(file));
+    const osg::Vec4 one = color();
+    for (int i = 1; i < 100; ++i)
+        EXPECT_EQ(_scene->addRendering(importRendering(file)), unsigned(i));
+    MixRules rules;
+    rules.excess = MixRules::Excess::Normalise;
+    _scene->setRules(rules);
+    support::NotifyCapture capture;
+    osg::Vec4 all;
+    for (int i = 0; i < 100 && _scene->getSource().find("own_99") == std::string::npos; ++i)
+    {
+        all = color();
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    all = color();
+    EXPECT_EQ(capture.takeWarnings(), support::NotifyCapture::Lines());
+    EXPECT_LT((all - one).length(), 1e-4f);
+    _scene->setUniform(99, "tint", {1.0, 0.5, 0.75});
+    EXPECT_NEAR(color().r(), (99 * 0.0625 + 1.0) / 100.0, 1e-4) << "each has values of its own";
+}
+
