@@ -144,4 +144,3 @@ TEST_F(MixedExtremesGLTest, aHundredImportsOfOneFileShowWhatOneDoes)
     _scene->setUniform(99, "tint", {1.0, 0.5, 0.75});
     EXPECT_NEAR(color().r(), (99 * 0.0625 + 1.0) / 100.0, 1e-4) << "each has values of its own";
 }
-
