@@ -16,9 +16,10 @@ namespace osgMultiRender
 /// other pair of files. What uniforms are at first, and within which limits they make sense, a
 /// comment behind each says: `uniform float gloss; // = 40 [1, 200]`.
 ///
-/// Surfaces are lit by light 0. Image renderings (`isImage`) work on texture unit 0 by its texture
-/// coordinates; their `imageSize`, where they have one, is the image's size in texels, and 0 0
-/// has them step by pixels of the screen.
+/// Surfaces are lit by all lights that are on, of numbers 0 to 7: a `uniform int osg_EnabledLights`
+/// has their bits, which MixedScene sets for each drawable. Image renderings (`isImage`) work on
+/// texture unit 0 by its texture coordinates; their `imageSize`, where they have one, is the
+/// image's size in texels, and 0 0 has them step by pixels of the screen.
 struct BuiltInRendering
 {
     std::string name;

@@ -20,6 +20,56 @@ double boxDistance(const glm::dvec3& low, const glm::dvec3& high, const glm::dve
     return glm::length(away);
 }
 
+struct Box
+{
+    glm::dvec3 low{infinity}, high{-infinity};
+    std::uint32_t count = 0; ///< Of segments.
+
+    void add(const KeySegment& segment)
+    {
+        low = glm::min(low, glm::min(segment.first, segment.second));
+        high = glm::max(high, glm::max(segment.first, segment.second));
+        ++count;
+    }
+
+    void add(const Box& other)
+    {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+        count += other.count;
+    }
+
+    /// What a walk is expected to pay for it: its edges, as boxes of lines and points have no area,
+    /// by its leaves.
+    double cost() const
+    {
+        const glm::dvec3 extent = high - low;
+        const std::uint32_t leaves = (count + KeyTree::LeafSize - 1) / KeyTree::LeafSize;
+        return count > 0 ? (extent.x + extent.y + extent.z) * leaves : 0.0;
+    }
+};
+
+/// Twice the middle of a segment.
+glm::dvec3 twiceMiddle(const KeySegment& segment)
+{
+    return segment.first + segment.second;
+}
+
+constexpr int Slabs = 16;
+
+/// Slabs of equal width along an axis, by middles.
+std::array<Box, Slabs> cutIntoSlabs(const KeySegment* begin, const KeySegment* end, int axis,
+                                    double low, double high)
+{
+    std::array<Box, Slabs> slabs;
+    for (const KeySegment* segment = begin; segment != end; ++segment)
+    {
+        const double share = (twiceMiddle(*segment)[axis] - low) / (high - low);
+        slabs[std::size_t(std::clamp(int(share * Slabs), 0, Slabs - 1))].add(*segment);
+    }
+    return slabs;
+}
+
 } // namespace
 
 double KeySegment::distance(const glm::dvec3& point) const
@@ -44,35 +94,65 @@ KeyTree::KeyTree(std::vector<KeySegment> segments) : _segments(std::move(segment
     if (_segments.size() > LeafSize)
     {
         _nodes.reserve(_segments.size() / 4);
-        build(0, static_cast<std::uint32_t>(_segments.size()));
+        build(0, static_cast<std::uint32_t>(_segments.size()), 1);
     }
 }
 
-std::uint32_t KeyTree::split(std::uint32_t begin, std::uint32_t end)
+// Into two parts of at most `most` segments. Where slabs along no axis promise less than halves do,
+// into halves along the longest one.
+std::uint32_t KeyTree::split(std::uint32_t begin, std::uint32_t end, std::uint32_t most)
 {
+    const std::uint32_t count = end - begin;
     glm::dvec3 low(infinity), high(-infinity);
     for (std::uint32_t i = begin; i < end; ++i)
     {
-        const glm::dvec3 twiceMiddle = _segments[i].first + _segments[i].second;
-        low = glm::min(low, twiceMiddle);
-        high = glm::max(high, twiceMiddle);
+        low = glm::min(low, twiceMiddle(_segments[i]));
+        high = glm::max(high, twiceMiddle(_segments[i]));
     }
     const glm::dvec3 extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
+    int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
     // Whole leaves on the left, so that few are half empty.
-    const std::uint32_t half = (end - begin + 1) / 2;
-    const std::uint32_t left =
-        end - begin > LeafSize ? (half + LeafSize - 1) / LeafSize * LeafSize : half;
+    const auto wholeLeaves = [&](std::uint32_t number)
+    { return count > LeafSize ? (number + LeafSize - 1) / LeafSize * LeafSize : number; };
+    std::uint32_t left = wholeLeaves((count + 1) / 2);
+    double best = infinity;
+    for (int each = 0; each < 3; ++each)
+    {
+        if (!(extent[each] > 0.0))
+            continue;
+        const std::array<Box, Slabs> slabs =
+            cutIntoSlabs(&_segments[begin], &_segments[begin] + count, each, low[each], high[each]);
+        std::array<double, Slabs> behind; // of this slab and all behind it
+        Box sum;
+        for (int i = Slabs; i-- > 0;)
+        {
+            sum.add(slabs[std::size_t(i)]);
+            behind[std::size_t(i)] = sum.cost();
+        }
+        sum = Box();
+        for (std::size_t i = 1; i < Slabs; ++i)
+        {
+            sum.add(slabs[i - 1]);
+            const std::uint32_t number = wholeLeaves(sum.count);
+            const double cost = sum.cost() + behind[i];
+            // A thin slice off a long range makes a deep tree, which other rays pay for.
+            if (cost < best && 8 * number >= count && 8 * number <= 7 * count && number < count &&
+                number <= most && count - number <= most)
+            {
+                best = cost;
+                axis = each;
+                left = number;
+            }
+        }
+    }
     const auto at = _segments.begin();
     std::nth_element(at + begin, at + begin + left, at + end,
                      [axis](const KeySegment& a, const KeySegment& b)
-                     { return a.first[axis] + a.second[axis] < b.first[axis] + b.second[axis]; });
+                     { return twiceMiddle(a)[axis] < twiceMiddle(b)[axis]; });
     return begin + left;
 }
 
-KeyTree::Node::Child KeyTree::makeChild(std::uint32_t begin, std::uint32_t end)
+KeyTree::Node::Child KeyTree::makeChild(std::uint32_t begin, std::uint32_t end, int depth)
 {
     Node::Child child;
     child.low = glm::dvec3(infinity);
@@ -88,15 +168,17 @@ KeyTree::Node::Child KeyTree::makeChild(std::uint32_t begin, std::uint32_t end)
         child.count = end - begin;
     }
     else
-        child.first = build(begin, end);
+        child.first = build(begin, end, depth);
     return child;
 }
 
-std::uint32_t KeyTree::build(std::uint32_t begin, std::uint32_t end)
+std::uint32_t KeyTree::build(std::uint32_t begin, std::uint32_t end, int depth)
 {
     const auto index = static_cast<std::uint32_t>(_nodes.size());
     _nodes.emplace_back();
-    const std::uint32_t middle = split(begin, end);
+    // What fits below a child of this node.
+    const std::uint32_t most = LeafSize << (2 * (MaxDepth - depth));
+    const std::uint32_t middle = split(begin, end, 2 * most);
     std::array<std::pair<std::uint32_t, std::uint32_t>, 4> parts;
     std::uint32_t used = 0;
     for (const auto& [from, to] : {std::pair(begin, middle), std::pair(middle, end)})
@@ -105,7 +187,7 @@ std::uint32_t KeyTree::build(std::uint32_t begin, std::uint32_t end)
             parts[used++] = {from, to};
         else
         {
-            const std::uint32_t quarter = split(from, to);
+            const std::uint32_t quarter = split(from, to, most);
             parts[used++] = {from, quarter};
             parts[used++] = {quarter, to};
         }
@@ -113,7 +195,7 @@ std::uint32_t KeyTree::build(std::uint32_t begin, std::uint32_t end)
     for (std::uint32_t i = 0; i < used; ++i)
     {
         // Not in one expression: building a child moves the nodes.
-        const Node::Child child = makeChild(parts[i].first, parts[i].second);
+        const Node::Child child = makeChild(parts[i].first, parts[i].second, depth + 1);
         _nodes[index].children[i] = child;
     }
     _nodes[index].used = used;

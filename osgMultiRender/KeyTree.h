@@ -23,8 +23,9 @@ struct KeySegment
 
 /// Segments in a tree of boxes, four children a node, that finds the distance to the nearest one.
 ///
-/// Free of OSG and GL. The result is that of looking at all segments, to the last bit. The tree is
-/// balanced by number, so that a walk needs no more than MaxStack places, whatever lies where.
+/// Free of OSG and GL. The result is that of looking at all segments, to the last bit. Boxes are
+/// cut where what is left of them is least, but never so that a walk needs more than MaxStack
+/// places, whatever lies where.
 class OSGMULTIRENDER_EXPORT KeyTree
 {
 public:
@@ -56,9 +57,11 @@ public:
     const std::vector<Node>& getNodes() const { return _nodes; }
 
 private:
-    std::uint32_t build(std::uint32_t begin, std::uint32_t end);
-    std::uint32_t split(std::uint32_t begin, std::uint32_t end);
-    Node::Child makeChild(std::uint32_t begin, std::uint32_t end);
+    static constexpr int MaxDepth = 10; ///< Of nodes: a walk leaves three children waiting in each.
+
+    std::uint32_t build(std::uint32_t begin, std::uint32_t end, int depth);
+    std::uint32_t split(std::uint32_t begin, std::uint32_t end, std::uint32_t most);
+    Node::Child makeChild(std::uint32_t begin, std::uint32_t end, int depth);
 
     double _slack = 1.0; ///< Of the distance to a box.
     std::vector<KeySegment> _segments;

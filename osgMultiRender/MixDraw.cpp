@@ -6,6 +6,15 @@
 namespace osgMultiRender
 {
 
+void MixResources::setFramePlan(const osg::Camera* camera, Plan plan)
+{
+    const osg::observer_ptr<const osg::Camera> none;
+    std::lock_guard<std::mutex> lock(mutex);
+    for (auto view = framePlans.begin(); view != framePlans.end();)
+        view = view->first != none && !view->first.valid() ? framePlans.erase(view) : ++view;
+    framePlans[camera] = std::move(plan);
+}
+
 MixDraw::MixDraw(std::shared_ptr<MixResources> resources,
                  std::shared_ptr<const MixSnapshot> snapshot)
     : _resources(std::move(resources)), _snapshot(std::move(snapshot))

@@ -20,7 +20,11 @@ struct MixResources
     TargetPool<MixFrameTargets> frames; ///< Empty where the input is the surfaces.
     std::mutex mutex;
     std::map<unsigned int, std::vector<osg::ref_ptr<MixState>>> free; ///< By context.
-    std::map<const osg::Camera*, Plan> framePlans;                    ///< Of passes over the frame.
+    /// Of passes over the frame; those of cameras that are gone go with the next one.
+    std::map<osg::observer_ptr<const osg::Camera>, Plan> framePlans;
+
+    /// `camera` may be null.
+    void setFramePlan(const osg::Camera* camera, Plan plan);
 };
 
 /// Key points, weights and programs as a view has them. Lives in the draw thread.

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixFile.h>
 
-#include <osgMultiRender/BuiltInRenderings.h>
-#include <osgMultiRender/Import.h>
 #include <osgMultiRender/ImportFile.h>
+#include <osgMultiRender/MixEntry.h>
 #include <osgMultiRender/MixOptions.h>
-
-#include <nlohmann/json.hpp>
 
 #include <osgDB/FileNameUtils>
 #include <osgDB/FileUtils>
@@ -20,7 +17,7 @@ namespace osgMultiRender
 namespace
 {
 
-using Json = nlohmann::ordered_json;
+using Json = MixJson;
 
 /// What a file says, before anything of it counts.
 struct ParsedMix
@@ -147,8 +144,18 @@ private:
             for (const auto& [key, part] : value[i].items())
                 if (!readPart(place, key, part, entry))
                     return false;
-            if (!readProgram(place, value[i], entry.rendering))
+            const std::string wrong = readMixProgram(
+                value[i], [this](const std::string& file) { return pathOf(file); },
+                entry.rendering);
+            if (!wrong.empty())
+            {
+                _error = place + wrong;
                 return false;
+            }
+            // Of a program in full they are its own values, too: those of samplers are units.
+            if (value[i].contains("vertex") || value[i].contains("fragment"))
+                for (const auto& [name, values] : entry.uniforms)
+                    uniformOf(entry.rendering, name).values = values;
             mix.renderings.push_back(std::move(entry));
         }
         return true;
@@ -174,37 +181,10 @@ private:
                     return fail(place + ".uniforms." + name, "is no number or list of numbers");
             return true;
         }
-        const bool isKnown = key == "name" || key == "file" || key == "vertex" || key == "fragment";
-        if (!isKnown)
-            return fail(place + "." + key,
-                        "is not known; there are name, file, vertex, fragment, range, uniforms");
-        return part.is_string() || fail(place + "." + key, "is no text");
-    }
-
-    bool readProgram(const std::string& place, const Json& value, Rendering& rendering)
-    {
-        const std::string name = value.value("name", ""), file = value.value("file", "");
-        const bool hasText = value.contains("vertex") || value.contains("fragment");
-        if (!file.empty())
-            rendering = importRendering(pathOf(file));
-        else if (hasText)
-        {
-            rendering.name = name.empty() ? "unnamed" : name;
-            const std::pair<const char*, GlslStage> stages[] = {{"vertex", GlslStage::Vertex},
-                                                                {"fragment", GlslStage::Fragment}};
-            for (const auto& [key, stage] : stages)
-                if (value.contains(key))
-                    rendering.shaders.push_back(
-                        {stage, value.value(key, ""), rendering.name + "." + key});
-            readUniformComments(rendering);
-        }
-        else if (findBuiltInRendering(name))
-            rendering = importNamed(name);
-        else
-            return fail(place, name.empty() ? "has neither name nor file"
-                                            : "names '" + name +
-                                                  "', which is not built in; say it as a file");
-        return true;
+        return isMixProgramKey(key) ||
+               fail(place + "." + key,
+                    "is not known; there are name, file, range, uniforms, vertex, fragment, "
+                    "defines, textures, attributes, outputs");
     }
 
     std::string pathOf(const std::string& file) const
@@ -222,24 +202,6 @@ private:
 Json formatDistance(double distance)
 {
     return std::isfinite(distance) ? Json(distance) : Json(formatNumber(distance));
-}
-
-/// The program as applyMix() finds it again: by name, by file, else in full.
-void formatProgram(const Rendering& rendering, Json& entry)
-{
-    if (!rendering.fileName.empty())
-    {
-        entry["file"] = rendering.fileName;
-        return;
-    }
-    entry["name"] = rendering.name;
-    const BuiltInRendering* builtIn = findBuiltInRendering(rendering.name);
-    const bool isBuiltIn = builtIn && rendering.shaders.size() == 2 &&
-                           rendering.shaders[0].text == builtIn->vertex &&
-                           rendering.shaders[1].text == builtIn->fragment;
-    for (const RenderingShader& shader : rendering.shaders)
-        if (!isBuiltIn)
-            entry[shader.stage == GlslStage::Vertex ? "vertex" : "fragment"] = shader.text;
 }
 
 } // namespace
@@ -312,15 +274,19 @@ std::string formatMix(const MixedScene& scene)
         places.emplace(number, int(places.size()));
         Json entry = Json::object();
         const std::shared_ptr<const Rendering> rendering = scene.getRendering(number);
-        formatProgram(*rendering, entry);
+        formatMixProgram(*rendering, entry);
         const MixRange range = scene.getRange(number);
         for (const double dr : {range.dr0, range.dr1, range.dr2, range.dr3})
             entry["range"].push_back(formatDistance(dr));
-        for (const RenderingUniform& uniform : rendering->uniforms)
-            if (const auto values = scene.getUniform(number, uniform.name);
-                values != uniform.values)
-                for (const double value : values)
-                    entry["uniforms"][uniform.name].push_back(formatDistance(value));
+        std::vector<std::string> names = scene.getSetUniforms(number);
+        if (entry.contains("vertex") || entry.contains("fragment"))
+            for (const RenderingUniform& uniform : rendering->uniforms)
+                if (!uniform.values.empty() &&
+                    std::find(names.begin(), names.end(), uniform.name) == names.end())
+                    names.push_back(uniform.name);
+        for (const std::string& name : names)
+            for (const double value : scene.getUniform(number, name))
+                entry["uniforms"][name].push_back(formatDistance(value));
         json["renderings"].push_back(entry);
     }
     for (const osg::Vec3d& point : scene.getKeyPoints())

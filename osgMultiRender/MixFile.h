@@ -22,11 +22,12 @@ class MixedScene;
 ///       "base": "phong"
 ///     }
 ///
-/// A rendering is a built-in one (`name`), a file beside the mix (`file`), or texts (`name`,
-/// `vertex`, `fragment`). Of a range's four distances the last two may be missing: infinite, as
-/// is "inf". All else is as mixOptions() has it. Renderings are added to those that are there.
-/// Returns false and fills `error` with one line, naming file and line or place; then nothing has
-/// been changed. `fileName` says where files lie; empty: on OSG's data path.
+/// A rendering is a built-in one (`name`), a file beside the mix (`file`), or one in full (`name`,
+/// `vertex`, `fragment`: a text or several; `defines`, `textures`, `attributes`, `outputs`). Of a
+/// range's four distances the last two may be missing: infinite, as is "inf". All else is as
+/// mixOptions() has it. Renderings are added to those that are there. Returns false and fills
+/// `error` with one line, naming file and line or place; then nothing has been changed. `fileName`
+/// says where files lie; empty: on OSG's data path.
 OSGMULTIRENDER_EXPORT bool applyMix(MixedScene& scene, const std::string& text,
                                     const std::string& fileName, std::string& error);
 

@@ -2,7 +2,10 @@
 #include <osgMultiRender/MixFrame.h>
 
 #include <osgMultiRender/DrawTarget.h>
+#include <osgMultiRender/MixLights.h>
 
+#include <osg/Camera>
+#include <osg/DisplaySettings>
 #include <osg/Notify>
 #include <osg/PolygonMode>
 #include <osg/Program>
@@ -39,6 +42,8 @@ public:
         MixDraw draw(_resources, _snapshot);
         Plan plan;
         std::string why = whyNot(state, target);
+        if (why.empty() && isInterlaced(renderInfo))
+            why = "the eyes share the picture's pixels; choose a kind of stereo that splits it";
         if (why.empty())
         {
             draw.begin(state, _keysToEye);
@@ -60,11 +65,23 @@ public:
                      << std::endl;
         const osg::Camera* camera = renderInfo.getCurrentCamera();
         plan.view = camera && !camera->getName().empty() ? camera->getName() : "camera";
-        std::lock_guard<std::mutex> lock(_resources->mutex);
-        _resources->framePlans[camera] = std::move(plan);
+        _resources->setFramePlan(camera, std::move(plan));
     }
 
 private:
+    /// Stereo where a stencil says which pixels an eye has.
+    static bool isInterlaced(osg::RenderInfo& renderInfo)
+    {
+        const osg::Camera* camera = renderInfo.getCurrentCamera();
+        const osg::DisplaySettings* settings = camera ? camera->getDisplaySettings() : nullptr;
+        if (!settings)
+            settings = osg::DisplaySettings::instance().get();
+        const auto mode = settings->getStereoMode();
+        return settings->getStereo() && (mode == osg::DisplaySettings::HORIZONTAL_INTERLACE ||
+                                         mode == osg::DisplaySettings::VERTICAL_INTERLACE ||
+                                         mode == osg::DisplaySettings::CHECKERBOARD);
+    }
+
     static std::string whyNot(const osg::State& state, const DrawTarget& target)
     {
         if (state.get<osg::GLExtensions>()->glVersion < 3.3f)
@@ -76,6 +93,11 @@ private:
         if (!state.getCurrentViewport() || state.getCurrentViewport()->width() < 1.0 ||
             state.getCurrentViewport()->height() < 1.0)
             return "the viewport is empty";
+        GLboolean writes[4] = {};
+        glGetBooleanv(GL_COLOR_WRITEMASK, writes);
+        if (!writes[0] || !writes[1] || !writes[2])
+            return "it is drawn in some colours alone, as for red and cyan glasses, and renderings "
+                   "read all of them; choose another kind of stereo";
         return {};
     }
 
@@ -120,7 +142,12 @@ private:
         state.pushStateSet(&own);
         state.apply();
         if (const auto* applied = state.getLastAppliedProgramObject())
+        {
             program.valuesOf(draw.getSnapshot())->send(*applied, state);
+            MixLights lights;
+            lights.setProgram(*applied);
+            lights.send(state, this);
+        }
         if (state.getUseModelViewAndProjectionUniforms())
             state.applyModelViewAndProjectionUniformsIfRequired();
         targets.getTriangle().draw(renderInfo);

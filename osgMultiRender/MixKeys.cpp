@@ -5,10 +5,12 @@
 #include <osgMultiRender/MixedScene.h>
 
 #include <osg/ApplicationUsage>
+#include <osg/ValueObject>
 #include <osgGA/EventVisitor>
 
 #include <algorithm>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace osgMultiRender
@@ -55,16 +57,31 @@ void changeNearest(MixedScene& scene, const osg::Vec3d& place, bool removes)
     scene.setKeyPoints(points, scene.getKeyMode());
 }
 
-/// Whether it had something to do with this scene.
-bool answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisitor& visitor)
+/// What the first scene that meets a key makes of its setting; the others take that.
+constexpr char AnswerName[] = "osgMultiRender.answer";
+/// Of an event that a scene has handled: whether it is for all scenes.
+constexpr char SharedName[] = "osgMultiRender.shared";
+
+/// The next one of three, or what another scene has chosen.
+int chooseNext(int value, KeyEvent& event)
+{
+    int chosen = (value + 1) % 3;
+    if (!event.getUserValue(AnswerName, chosen))
+        event.setUserValue(AnswerName, chosen);
+    return chosen;
+}
+
+/// False for a key that has nothing to do with this scene.
+bool answer(char key, MixedScene& scene, KeyEvent& event, osgGA::EventVisitor& visitor)
 {
     switch (key)
     {
     case 'K':
-        scene.setMarks(MixMarks((int(scene.getMarks()) + 1) % 3));
+        scene.setMarks(MixMarks(chooseNext(int(scene.getMarks()), event)));
         break;
     case 'J':
-        scene.setKeyPoints(scene.getKeyPoints(), KeyMode((int(scene.getKeyMode()) + 1) % 3));
+        scene.setKeyPoints(scene.getKeyPoints(),
+                           KeyMode(chooseNext(int(scene.getKeyMode()), event)));
         break;
     case '[':
         scaleRanges(scene, 1.0 / 1.1);
@@ -83,6 +100,30 @@ bool answer(char key, MixedScene& scene, const KeyEvent& event, osgGA::EventVisi
             changeNearest(scene, *place, key == 'X');
         return place.has_value(); // another scene may lie there
     }
+    return true;
+}
+
+/// Keys of a place are one scene's, the others all scenes'.
+bool isOfPlace(int key)
+{
+    return key == 'Y' || key == 'Q' || key == 'X';
+}
+
+/// Whether this scene answers; one in several places is asked more than once.
+bool answerKey(MixedScene& scene, KeyEvent& event, osgGA::EventVisitor& visitor)
+{
+    const auto& keys = mixKeys();
+    const auto key = std::find_if(keys.begin(), keys.end(),
+                                  [&](const MixKey& each) { return event.getKey() == each.key; });
+    if (key == keys.end())
+        return false;
+    std::ostringstream name;
+    name << AnswerName << &scene;
+    bool isAnswered = false;
+    if (event.getUserValue(name.str(), isAnswered) || !answer(key->key, scene, event, visitor))
+        return false;
+    event.setUserValue(name.str(), true);
+    event.setUserValue(SharedName, !isOfPlace(key->key));
     return true;
 }
 
@@ -108,16 +149,13 @@ void answerKeys(MixedScene& scene, osgGA::EventVisitor& visitor, MixDrag& drag)
     for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
     {
         KeyEvent* event = each->asGUIEventAdapter();
-        if (!event || event->getHandled())
+        if (!event)
             continue;
-        bool isAnswered = false;
-        if (event->getEventType() != KeyEvent::KEYDOWN)
-            isAnswered = drag.answer(scene, *event, visitor);
-        else
-            for (const MixKey& key : mixKeys())
-                if (event->getKey() == key.key)
-                    isAnswered = answer(key.key, scene, *event, visitor);
-        if (!isAnswered)
+        const bool isKey = event->getEventType() == KeyEvent::KEYDOWN;
+        bool isShared = false;
+        if (event->getHandled() && !(event->getUserValue(SharedName, isShared) && isShared))
+            continue;
+        if (!(isKey ? answerKey(scene, *event, visitor) : drag.answer(scene, *event, visitor)))
             continue;
         event->setHandled(true);
         if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())

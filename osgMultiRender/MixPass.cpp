@@ -142,23 +142,30 @@ const osg::StateSet* MixPass::startRun()
 }
 
 void MixPass::apply(osg::RenderInfo& renderInfo, const SurfaceVariant& variant,
-                    const osgUtil::RenderLeaf&, std::uint32_t)
+                    const osgUtil::RenderLeaf& leaf, std::uint32_t)
 {
-    static const unsigned int name = osg::Uniform::getNameID("osgmr_mixViewport");
     osg::State& state = *renderInfo.getState();
     const osg::Viewport* viewport = state.getCurrentViewport();
-    const auto* program = state.getLastAppliedProgramObject();
-    if (!viewport || (_variant == &variant && _viewport == viewport))
-        return;
+    if (viewport && (_variant != &variant || _viewport != viewport))
+        startVariant(state, variant, *viewport);
+    _lights.send(state, leaf._parent);
+}
+
+/// What all leaves of a program have in common.
+void MixPass::startVariant(osg::State& state, const SurfaceVariant& variant,
+                           const osg::Viewport& viewport)
+{
+    static const unsigned int name = osg::Uniform::getNameID("osgmr_mixViewport");
+    const osg::Program::PerContextProgram& program = *state.getLastAppliedProgramObject();
     _variant = &variant;
-    _viewport = viewport;
+    _viewport = &viewport;
+    _lights.setProgram(program);
     auto* gl = state.get<osg::GLExtensions>();
-    gl->glUniform4f(program->getUniformLocation(name), GLfloat(viewport->x()),
-                    GLfloat(viewport->y()), GLfloat(2.0 / viewport->width()),
-                    GLfloat(2.0 / viewport->height()));
+    gl->glUniform4f(program.getUniformLocation(name), GLfloat(viewport.x()), GLfloat(viewport.y()),
+                    GLfloat(2.0 / viewport.width()), GLfloat(2.0 / viewport.height()));
     const auto values = _values.find(variant.getLook());
     if (values != _values.end() && _sent.insert(&variant).second)
-        values->second->send(*program, state);
+        values->second->send(program, state);
 }
 
 std::string MixPass::nameOf(const MixSet& set) const

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <osgMultiRender/MixDraw.h>
+#include <osgMultiRender/MixLights.h>
 #include <osgMultiRender/SurfaceGroup.h>
 
 #include <set>
@@ -41,6 +42,8 @@ private:
         unsigned int leaves = 0;
     };
 
+    void startVariant(osg::State& state, const SurfaceVariant& variant,
+                      const osg::Viewport& viewport);
     MixSet setOf(const osgUtil::RenderLeaf& leaf) const;
     std::string nameOf(const MixSet& set) const;
 
@@ -53,6 +56,7 @@ private:
     std::set<const SurfaceVariant*> _sent;    ///< Have their values in this run.
     const osg::Viewport* _viewport = nullptr; ///< As the program has it.
     const SurfaceVariant* _variant = nullptr;
+    MixLights _lights; ///< Of that variant's program.
 };
 
 } // namespace osgMultiRender

@@ -22,6 +22,9 @@ osg::Program* makeProgram(const Merged& merged, const MixSet& set)
     for (const MergedRendering& rendering : merged.renderings)
         if (rendering.included)
             name += " " + rendering.name;
+    // Drivers take 256 bytes as a label; OSG hands the name on.
+    if (name.size() > 120)
+        name = name.substr(0, 120) + "...";
     program->setName(name);
     for (const auto type : {osg::Shader::VERTEX, osg::Shader::FRAGMENT})
     {

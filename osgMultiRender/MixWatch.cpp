@@ -49,14 +49,19 @@ MixWatch::Files MixWatch::look()
         Seen now;
         now.time = std::filesystem::last_write_time(file, timeError);
         now.size = std::filesystem::file_size(file, sizeError);
-        std::string error;
+        std::string text, error;
         if (before != _seen.end() &&
             (timeError || sizeError ||
              (now.time == before->second.time && now.size == before->second.size)))
             now = before->second;
-        else if (!timeError && !sizeError && readTextFile(file, now.text, error) &&
-                 before != _seen.end() && now.text != before->second.text)
-            changed.push_back(file);
+        else if (!timeError && !sizeError)
+        {
+            // Of what is too large to be read (images) time and size decide.
+            const bool isRead = readTextFile(file, text, error);
+            now.content = std::hash<std::string>()(text);
+            if (before != _seen.end() && (!isRead || now.content != before->second.content))
+                changed.push_back(file);
+        }
         seen.emplace(file, std::move(now));
     }
     _seen = std::move(seen);

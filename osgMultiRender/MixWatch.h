@@ -37,7 +37,7 @@ private:
     {
         std::filesystem::file_time_type time;
         std::uintmax_t size = 0;
-        std::string text;
+        std::size_t content = 0; ///< Of what is in it.
     };
 
     void run(std::chrono::milliseconds period);

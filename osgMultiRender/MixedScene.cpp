@@ -106,17 +106,22 @@ unsigned int MixedScene::addRendering(const Rendering& rendering, const MixRange
     return number;
 }
 
+/// What is shown while another rendering can't take the slot's place.
+std::shared_ptr<const MixSlot> MixedScene::beforeOf(const MixSlot& slot) const
+{
+    if (_resources->programs.hasFailed(slot.id))
+        return slot.before;
+    auto before = std::make_shared<MixSlot>(slot);
+    before->before = nullptr;
+    return before;
+}
+
 bool MixedScene::setRendering(unsigned int number, const Rendering& rendering)
 {
     return changeSlot(number,
                       [&](MixSnapshot& snapshot, MixSlot& slot)
                       {
-                          auto before = std::make_shared<MixSlot>(slot);
-                          if (_resources->programs.hasFailed(slot.id))
-                              slot.before = before->before;
-                          else
-                              slot.before = before;
-                          before->before = nullptr;
+                          slot.before = beforeOf(slot);
                           slot.rendering = std::make_shared<Rendering>(rendering);
                           slot.id = nextId();
                           ++snapshot.uniformRevision;
@@ -276,6 +281,16 @@ std::vector<double> MixedScene::getUniform(unsigned int number, const std::strin
         return found->second;
     const RenderingUniform* own = slot.rendering->findUniform(name);
     return own ? own->values : std::vector<double>();
+}
+
+std::vector<std::string> MixedScene::getSetUniforms(unsigned int number) const
+{
+    const auto snapshot = getSnapshot();
+    std::vector<std::string> names;
+    if (number < snapshot->slots.size())
+        for (const auto& [name, values] : snapshot->slots[number].uniforms)
+            names.push_back(name);
+    return names;
 }
 
 void MixedScene::setPruning(bool prunes)

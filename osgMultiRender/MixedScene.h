@@ -18,6 +18,7 @@ namespace osgMultiRender
 class MixDrag;
 class MixWatch;
 struct MixResources;
+struct MixSlot;
 struct MixSnapshot;
 
 /// What is drawn of the key points beside the scene.
@@ -107,6 +108,9 @@ public:
     /// As set, else as the rendering has it; empty where neither says anything.
     std::vector<double> getUniform(unsigned int number, const std::string& name) const;
 
+    /// The names of those that have been set; empty for a number that none has.
+    std::vector<std::string> getSetUniforms(unsigned int number) const;
+
     /// Whether drawables get programs of only those renderings that they need.
     void setPruning(bool prunes);
     bool getPruning() const;
@@ -131,9 +135,9 @@ public:
     std::string getMixText() const;
 
     /// Whether files are looked after once a second, in a thread of its own: those of renderings,
-    /// and the mix file. What has changed is imported anew, as setRendering() does it; a mix file's
-    /// renderings, points and settings take the place of all that are there. A file with errors
-    /// leaves what is shown, with one warning that names it.
+    /// their textures and the mix file. What has changed is imported anew, as setRendering() does
+    /// it; a mix file's renderings, points and settings take the place of all that are there. A
+    /// file with errors leaves what is shown, with one warning that names it.
     void setWatching(bool watches);
     bool isWatching() const;
     /// The mix file that is looked after; "" for none. readMixFile() sets it.
@@ -165,6 +169,7 @@ private:
     template <class Change> void change(Change change);
     template <class Change> bool changeSlot(unsigned int number, Change change);
     std::shared_ptr<const MixSnapshot> getSnapshot() const;
+    std::shared_ptr<const MixSlot> beforeOf(const MixSlot& slot) const;
     osg::Matrixd keysToScene() const;
     osg::ref_ptr<osg::Node> makeMarks();
     void reimport(const std::vector<std::string>& files, bool all);

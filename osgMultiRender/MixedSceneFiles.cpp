@@ -8,6 +8,7 @@
 #include <osgMultiRender/MixWatch.h>
 
 #include <osg/Notify>
+#include <osgDB/Registry>
 
 #include <algorithm>
 
@@ -19,6 +20,14 @@ namespace
 
 constexpr std::chrono::milliseconds WatchPeriod(1000);
 
+std::vector<std::string> filesOf(const RenderingTexture& texture)
+{
+    std::vector<std::string> files = texture.faces;
+    if (!texture.fileName.empty())
+        files.push_back(texture.fileName);
+    return files;
+}
+
 std::vector<std::string> filesOf(const Rendering& rendering)
 {
     std::vector<std::string> files;
@@ -28,7 +37,24 @@ std::vector<std::string> filesOf(const Rendering& rendering)
     for (const RenderingShader& shader : rendering.shaders)
         if (!shader.fileName.empty())
             files.push_back(shader.fileName);
+    for (const RenderingTexture& texture : rendering.textures)
+        for (const std::string& file : filesOf(texture))
+            files.push_back(file);
     return files;
+}
+
+/// What replaces a rendering of the same file, or of the same name where there is none.
+bool isSameSource(const Rendering& a, const Rendering& b)
+{
+    return a.fileName == b.fileName && (!a.fileName.empty() || a.name == b.name);
+}
+
+/// Images are kept by OSG: one that has changed is to be read anew.
+void forgetImage(const std::string& file)
+{
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->setObjectCacheHint(osgDB::Options::CACHE_IMAGES);
+    osgDB::Registry::instance()->removeFromObjectCache(file, options);
 }
 
 } // namespace
@@ -72,6 +98,12 @@ void MixedScene::takeSettings(const MixedScene& other)
     auto snapshot = std::make_shared<MixSnapshot>(*from);
     snapshot->mixRevision = _snapshot->mixRevision + 1;
     snapshot->uniformRevision = _snapshot->uniformRevision + 1;
+    // A broken one leaves what the same file has shown.
+    for (MixSlot& slot : snapshot->slots)
+        for (const MixSlot& old : _snapshot->slots)
+            if (slot.rendering && old.rendering && slot.id != old.id && !slot.before &&
+                isSameSource(*slot.rendering, *old.rendering))
+                slot.before = beforeOf(old);
     _snapshot = std::move(snapshot);
     _points = points;
     _marks = marks;
@@ -148,8 +180,12 @@ void MixedScene::reimport(const std::vector<std::string>& files, bool all)
         if (!rendering)
             continue;
         const std::vector<std::string> own = filesOf(*rendering);
-        if (std::any_of(own.begin(), own.end(), isChanged))
-            setRendering(number, importRendering(rendering->fileName));
+        if (std::none_of(own.begin(), own.end(), isChanged))
+            continue;
+        for (const RenderingTexture& texture : rendering->textures)
+            for (const std::string& file : filesOf(texture))
+                forgetImage(file);
+        setRendering(number, importRendering(rendering->fileName));
     }
 }
 

@@ -5,16 +5,49 @@
 uniform float squares; // = 4 [0.05, 100]
 uniform vec3 light; // = 0.93 0.91 0.85 [0, 1]
 uniform vec3 dark; // = 0.18 0.22 0.28 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec3 modelPosition;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
 }
 
 // Unit normal of the side that is seen.
@@ -39,6 +72,6 @@ void main()
     vec3 mean = wave(at + 0.013, max(fwidth(at), 1e-4));
     float odd = 0.5 + 0.5 * mean.x * mean.y * mean.z;
     vec3 normal = seenNormal(eyeNormal, eyePosition);
-    float diffuse = max(dot(normal, lightDirection(eyePosition)), 0.0);
+    vec3 diffuse = diffuseLight(normal, eyePosition);
     gl_FragColor = vec4(mix(dark, light, odd) * (0.25 + 0.75 * diffuse), 1.0);
 }

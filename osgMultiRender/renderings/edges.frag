@@ -7,15 +7,53 @@ uniform float width; // = 2 [0.5, 8]
 uniform float bend; // = 0.12 [0.01, 1]
 uniform vec3 ink; // = 0.05 0.07 0.12 [0, 1]
 uniform vec3 paper; // = 0.96 0.97 0.98 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
+}
+
+float brightness(vec3 light)
+{
+    return max(max(light.r, light.g), light.b);
 }
 
 // Unit normal of the side that is seen.
@@ -36,6 +74,6 @@ void main()
     vec3 turnX = dFdx(normal), turnY = dFdy(normal);
     float turn = sqrt(dot(turnX, turnX) + dot(turnY, turnY)) * max(facing, 0.0);
     float crease = smoothstep(bend, 1.5 * bend, turn);
-    float shade = 0.3 * (1.0 - max(dot(normal, lightDirection(eyePosition)), 0.0));
+    float shade = 0.3 * max(1.0 - brightness(diffuseLight(normal, eyePosition)), 0.0);
     gl_FragColor = vec4(mix(paper * (1.0 - shade), ink, max(outline, crease)), 1.0);
 }

@@ -6,16 +6,37 @@
 uniform vec3 cool; // = 0.15 0.25 0.6 [0, 1]
 uniform vec3 warm; // = 0.95 0.85 0.55 [0, 1]
 uniform float tint; // = 0.3 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec4 color;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+float brightness(vec3 light)
+{
+    return max(max(light.r, light.g), light.b);
 }
 
 // Unit normal of the side that is seen.
@@ -34,14 +55,27 @@ vec4 surfaceColor()
 void main()
 {
     vec3 normal = seenNormal(eyeNormal, eyePosition);
-    vec3 toLight = lightDirection(eyePosition);
     vec3 toEye = -normalize(eyePosition);
     vec4 surface = surfaceColor();
-    float warmth = clamp(0.35 + 0.65 * dot(normal, toLight), 0.0, 1.0);
+    // The light that counts most, so that two from opposite sides don't cancel each other.
+    float most = -1.0, highlight = 0.0;
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, eyePosition);
+            float power = light.w * brightness(gl_LightSource[i].diffuse.rgb);
+            float mirrored = max(dot(reflect(-light.xyz, normal), toEye), 0.0);
+            most = max(most, power * dot(normal, light.xyz));
+            highlight = max(highlight, min(power, 1.0) * smoothstep(0.93, 0.99, mirrored));
+        }
+        on /= 2;
+    }
+    float warmth = clamp(0.35 + 0.65 * most, 0.0, 1.0);
     vec3 tone = mix(mix(cool, surface.rgb, tint), mix(warm, surface.rgb, tint), warmth);
-    float mirrored = max(dot(reflect(-toLight, normal), toEye), 0.0);
     float facing = dot(normal, toEye);
     float line = 1.5 * max(fwidth(facing), 0.02);
-    tone = mix(tone, vec3(1.0), 0.6 * smoothstep(0.93, 0.99, mirrored));
+    tone = mix(tone, vec3(1.0), 0.6 * highlight);
     gl_FragColor = vec4(tone * smoothstep(0.5 * line, line, facing), surface.a);
 }

@@ -7,16 +7,54 @@ uniform float spacing; // = 7 [3, 30]
 uniform float weight; // = 1 [0.2, 3]
 uniform vec3 ink; // = 0.1 0.1 0.2 [0, 1]
 uniform vec3 paper; // = 0.97 0.95 0.9 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec3 modelPosition;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
+}
+
+float brightness(vec3 light)
+{
+    return max(max(light.r, light.g), light.b);
 }
 
 // Unit normal of the side that is seen.
@@ -50,8 +88,7 @@ float slices(vec3 direction, float share)
 void main()
 {
     vec3 normal = seenNormal(eyeNormal, eyePosition);
-    float light = max(dot(normal, lightDirection(eyePosition)), 0.0);
-    float dark = 1.0 - light;
+    float dark = max(1.0 - brightness(diffuseLight(normal, eyePosition)), 0.0);
     float first = slices(vec3(0.64, 0.60, 0.48), weight * 0.35 * smoothstep(0.15, 0.7, dark));
     float second = slices(vec3(-0.60, 0.64, 0.48), weight * 0.35 * smoothstep(0.5, 1.0, dark));
     float facing = dot(normal, -normalize(eyePosition));

@@ -1,6 +1,6 @@
 #version 120
 
-// Gouraud shading: the material under light 0, computed at the vertices.
+// Gouraud shading: the material under all lights, computed at the vertices.
 
 varying vec4 litColor;
 

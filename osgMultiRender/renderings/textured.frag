@@ -1,20 +1,53 @@
 #version 120
 
-// The model's texture of unit 0, lit by light 0 as far as asked for.
+// The model's texture of unit 0, lit by all lights as far as asked for.
 
 uniform sampler2D image; // = 0
 uniform float shading; // = 0.7 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec4 color;
 varying vec2 place;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
 }
 
 // Unit normal of the side that is seen.
@@ -27,7 +60,7 @@ vec3 seenNormal(vec3 normal, vec3 position)
 void main()
 {
     vec3 normal = seenNormal(eyeNormal, eyePosition);
-    float diffuse = max(dot(normal, lightDirection(eyePosition)), 0.0);
+    vec3 diffuse = diffuseLight(normal, eyePosition);
     vec4 texel = texture2D(image, place) * color;
-    gl_FragColor = vec4(texel.rgb * mix(1.0, 0.2 + 0.8 * diffuse, shading), texel.a);
+    gl_FragColor = vec4(texel.rgb * mix(vec3(1.0), 0.2 + 0.8 * diffuse, shading), texel.a);
 }

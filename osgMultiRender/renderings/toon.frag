@@ -4,16 +4,54 @@
 
 uniform float tones; // = 3 [2, 8]
 uniform float outline; // = 2 [0, 6]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec4 color;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
+}
+
+float brightness(vec3 light)
+{
+    return max(max(light.r, light.g), light.b);
 }
 
 // Unit normal of the side that is seen.
@@ -33,7 +71,9 @@ void main()
 {
     vec3 normal = seenNormal(eyeNormal, eyePosition);
     float facing = dot(normal, -normalize(eyePosition));
-    float diffuse = max(dot(normal, lightDirection(eyePosition)), 0.0) * (tones - 0.01);
+    vec3 light = diffuseLight(normal, eyePosition);
+    float bright = brightness(light);
+    float diffuse = min(bright, 1.0) * (tones - 0.01);
     float pixel = max(fwidth(diffuse), 1e-5);
     // A step up just before each whole number, as wide as a pixel.
     float tone = floor(diffuse) + clamp((fract(diffuse) - 1.0) / pixel + 1.0, 0.0, 1.0);
@@ -41,5 +81,6 @@ void main()
     float line = outline * max(fwidth(facing), 0.02);
     float ink = outline > 0.0 ? smoothstep(0.5 * line, line, facing) : 1.0;
     vec4 surface = surfaceColor();
-    gl_FragColor = vec4(surface.rgb * shade * ink, surface.a);
+    vec3 hue = bright > 1e-4 ? light / bright : vec3(1.0);
+    gl_FragColor = vec4(surface.rgb * hue * shade * ink, surface.a);
 }

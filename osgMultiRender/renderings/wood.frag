@@ -5,16 +5,69 @@
 uniform float rings; // = 6 [0.1, 50]
 uniform vec3 light; // = 0.76 0.52 0.30 [0, 1]
 uniform vec3 dark; // = 0.45 0.24 0.11 [0, 1]
+uniform int osg_EnabledLights; // = 1 [0, 255]
 
 varying vec3 eyePosition;
 varying vec3 eyeNormal;
 varying vec3 modelPosition;
 
-// Towards light 0.
-vec3 lightDirection(vec3 position)
+// The unit vector to a light, and how much of it arrives: by distance and cone.
+vec4 lightAt(int number, vec3 position)
 {
-    vec4 source = gl_LightSource[0].position;
-    return normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - position);
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+// What a surface gets from the lights that are on: bits of their numbers, lowest first.
+vec3 diffuseLight(vec3 normal, vec3 position)
+{
+    vec3 sum = vec3(0.0);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            sum += light.w * max(dot(normal, light.xyz), 0.0) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
+}
+
+// What of these lights it mirrors into the eye.
+vec3 mirroredLight(vec3 normal, vec3 position, float gloss)
+{
+    vec3 sum = vec3(0.0);
+    vec3 toEye = -normalize(position);
+    int on = osg_EnabledLights;
+    for (int i = 0; on > 0; ++i)
+    {
+        if (on - on / 2 * 2 == 1)
+        {
+            vec4 light = lightAt(i, position);
+            float mirrored = max(dot(reflect(-light.xyz, normal), toEye), 1e-6);
+            if (dot(normal, light.xyz) > 0.0)
+                sum += light.w * pow(mirrored, gloss) * gl_LightSource[i].diffuse.rgb;
+        }
+        on /= 2;
+    }
+    return sum;
 }
 
 // Unit normal of the side that is seen.
@@ -62,8 +115,7 @@ void main()
     float fibre = noise(at * vec3(14.0, 14.0, 0.6)) * (1.0 - smoothstep(0.03, 0.1, size));
     vec3 grain = mix(light, dark, ring) * (1.0 + 0.12 * fibre);
     vec3 normal = seenNormal(eyeNormal, eyePosition);
-    vec3 toLight = lightDirection(eyePosition);
-    float diffuse = max(dot(normal, toLight), 0.0);
-    float mirrored = max(dot(reflect(-toLight, normal), -normalize(eyePosition)), 1e-6);
-    gl_FragColor = vec4(grain * (0.25 + 0.75 * diffuse) + 0.12 * pow(mirrored, 20.0), 1.0);
+    vec3 diffuse = diffuseLight(normal, eyePosition);
+    vec3 mirrored = mirroredLight(normal, eyePosition, 20.0);
+    gl_FragColor = vec4(grain * (0.25 + 0.75 * diffuse) + 0.12 * mirrored, 1.0);
 }

@@ -33,28 +33,28 @@ vec4 osgmr_mixBytes(uint word)
     return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u);
 }
 
-// Squared distance to a segment.
-float osgmr_segment(int texel, vec3 at)
-{
-    vec4 place = osgmr_mixFloats(texel);
-    vec3 away = at - place.xyz;
-    if (osgmr_mixKeys.w > 1)
-    {
-        vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
-        away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
-    }
-    return dot(away, away);
-}
-
+// The least squared distance to segments. One loop for points and one for lines: what is decided
+// within a loop is paid for each segment.
 float osgmr_nearestOf(int texel, int count, vec3 at, float nearest)
 {
-    for (int i = 0; i < count; ++i)
-    {
-        float square = osgmr_segment(texel, at);
-        if (square < nearest) // never for what is not a number
-            nearest = square;
-        texel += osgmr_mixKeys.w;
-    }
+    if (osgmr_mixKeys.w > 1)
+        for (int i = 0; i < count; ++i)
+        {
+            vec4 place = osgmr_mixFloats(texel);
+            vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
+            vec3 away = at - place.xyz;
+            away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
+            float square = dot(away, away);
+            nearest = square < nearest ? square : nearest; // never for what is not a number
+            texel += 2;
+        }
+    else
+        for (int i = 0; i < count; ++i)
+        {
+            vec3 away = at - osgmr_mixFloats(texel + i).xyz;
+            float square = dot(away, away);
+            nearest = square < nearest ? square : nearest;
+        }
     return nearest;
 }
 

@@ -202,3 +202,77 @@ TEST(MixFileTest, textsThatAreNotUtf8AndInfiniteUniformsAreWritten)
     EXPECT_EQ(other->getUniform(0, "gloss"),
               std::vector<double>{std::numeric_limits<double>::infinity()});
 }
+
+TEST(MixFileTest, aProgramInFullKeepsAllThatItIsMadeOf)
+{
+    Rendering own;
+    own.name = "own";
+    own.shaders = {
+        {GlslStage::Vertex,
+         "attribute vec3 wind;\nvoid main() { gl_Position = "
+         "ftransform() + vec4(wind, 0.0); }\n",
+         "a"},
+        {GlslStage::Fragment, "vec4 tint();\nvoid main() { gl_FragColor = tint(); }\n", "b"},
+        {GlslStage::Fragment,
+         "uniform sampler2D map; uniform float gain;\nvec4 tint() { "
+         "return gain * texture2D(map, vec2(STEPS)); }\n",
+         "c"}};
+    own.defines["STEPS"] = "8";
+    own.attributeBindings["wind"] = 6;
+    own.fragmentDataBindings["color"] = 0;
+    RenderingTexture texture;
+    texture.unit = 3;
+    texture.fileName = "/pictures/map.png";
+    texture.wrap = {0x812F, 0x812F, 0x2901};
+    own.textures.push_back(texture);
+    RenderingUniform map;
+    map.name = "map";
+    map.values = {3};
+    own.uniforms.push_back(map);
+    const osg::ref_ptr<MixedScene> scene = new MixedScene, other = new MixedScene;
+    scene->addRendering(own);
+    scene->setUniform(0, "gain", {0.5}); // which the rendering does not list
+    std::string error;
+    support::NotifyCapture capture;
+    ASSERT_TRUE(applyMix(*other, formatMix(*scene), {}, error)) << error;
+    EXPECT_EQ(capture.takeWarnings(), Lines());
+    const Rendering& read = *other->getRendering(0);
+    ASSERT_EQ(read.shaders.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i)
+    {
+        EXPECT_EQ(read.shaders[i].text, own.shaders[i].text);
+        EXPECT_EQ(read.shaders[i].stage, own.shaders[i].stage);
+    }
+    EXPECT_EQ(read.defines, own.defines);
+    EXPECT_EQ(read.attributeBindings, own.attributeBindings);
+    EXPECT_EQ(read.fragmentDataBindings, own.fragmentDataBindings);
+    ASSERT_EQ(read.textures.size(), 1u);
+    EXPECT_EQ(read.textures[0].fileName, texture.fileName);
+    EXPECT_EQ(read.textures[0].unit, 3u);
+    EXPECT_EQ(read.textures[0].wrap, texture.wrap);
+    ASSERT_TRUE(read.findUniform("map"));
+    EXPECT_EQ(read.findUniform("map")->values, std::vector<double>{3});
+    EXPECT_EQ(other->getUniform(0, "gain"), std::vector<double>{0.5});
+    own.state.given = true;
+    scene->setRendering(0, own);
+    formatMix(*scene);
+    const Lines warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("'own' is not saved as a whole"), std::string::npos);
+}
+
+TEST(MixFileTest, aProgramInFullThatIsWrongIsOneLine)
+{
+    const auto inFull = [](const std::string& rest)
+    { return apply(R"({"renderings": [{"fragment": "void main() {}", )" + rest + "}]}"); };
+    const std::string place = "a.mix: renderings[0]";
+    EXPECT_EQ(inFull(R"("vertex": [3])"), place + ".vertex is no text");
+    EXPECT_EQ(inFull(R"("defines": {"A": 3})"), place + ".defines.A is no text");
+    EXPECT_EQ(inFull(R"("attributes": {"a": -1})"), place + ".attributes.a is no number");
+    EXPECT_EQ(inFull(R"("textures": [{"file": 3}])"), place + ".textures[0].file is no text");
+    EXPECT_EQ(inFull(R"("textures": [{"unit": 3}])").find(place + ".textures[0] is no texture"),
+              0u);
+    EXPECT_EQ(inFull(R"("textures": [{"file": "a.png", "wrap": [1]}])")
+                  .find(place + ".textures[0].wrap is none"),
+              0u);
+}

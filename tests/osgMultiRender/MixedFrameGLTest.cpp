@@ -6,6 +6,8 @@
 #include <osgMultiRender/MixOptions.h>
 
 #include <osg/Camera>
+#include <osg/ColorMask>
+#include <osg/DisplaySettings>
 
 using namespace osgMultiRender;
 
@@ -169,6 +171,55 @@ TEST_F(MixedFrameGLTest, eachViewHasItsOwnPartOfTheFrame)
         }
     EXPECT_GT(colored, Size * Size / 8);
     EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(MixedFrameGLTest, aPictureOfSomeColorsAloneOrOfInterlacedEyesIsKept)
+{
+    addThree();
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    root->addChild(_model);
+    root->getOrCreateStateSet()->setAttribute(new osg::ColorMask(true, false, false, true));
+    const osg::ref_ptr<osg::Image> plain = drawOther(root);
+    root->removeChildren(0, 1);
+    _scene->addChild(_model);
+    _scene->setInput(MixInput::Frame);
+    root->addChild(_scene);
+    const osg::ref_ptr<osg::Image> masked = drawOther(root);
+    EXPECT_EQ(support::difference(*masked, *plain, 0.0).worst, 0.0);
+    std::vector<Plan> plans = _scene->getPlans();
+    ASSERT_EQ(plans.size(), 1u);
+    EXPECT_EQ(plans[0].entries.at(0).decision, PlanEntry::Decision::Dropped);
+    EXPECT_NE(plans[0].entries.at(0).reason.find("some colours alone"), std::string::npos);
+
+    root->getStateSet()->removeAttribute(osg::StateAttribute::COLORMASK);
+    const osg::ref_ptr<osg::DisplaySettings> settings = new osg::DisplaySettings;
+    settings->setStereo(true);
+    settings->setStereoMode(osg::DisplaySettings::HORIZONTAL_INTERLACE);
+    _viewer.getViewer().getCamera()->setDisplaySettings(settings);
+    drawOther(root);
+    _viewer.getViewer().getCamera()->setDisplaySettings(nullptr);
+    plans = _scene->getPlans();
+    EXPECT_NE(plans.back().entries.at(0).reason.find("share the picture's pixels"),
+              std::string::npos);
+}
+
+TEST_F(MixedFrameGLTest, plansOfViewsThatAreGoneAreForgotten)
+{
+    addThree();
+    _scene->setInput(MixInput::Frame);
+    _scene->addChild(_model);
+    for (int i = 0; i < 5; ++i)
+    {
+        const osg::ref_ptr<osg::Camera> picture = new osg::Camera;
+        picture->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
+        picture->setRenderOrder(osg::Camera::POST_RENDER);
+        picture->setViewMatrix(_camera.view);
+        picture->setProjectionMatrix(_camera.projection);
+        picture->addChild(_scene);
+        drawOther(picture);
+    }
+    draw(2);
+    EXPECT_LE(_scene->getPlans().size(), 2u) << "the view and the picture before it";
 }
 
 TEST_F(MixedFrameGLTest, theSettingIsReadAndWritten)

@@ -117,6 +117,34 @@ TEST_F(MixedKeysGLTest, aKeyOverAnotherSceneIsThatOnes)
     EXPECT_EQ(_scene->getKeyPoints().size(), 3u);
 }
 
+TEST_F(MixedKeysGLTest, keysThatAreOfNoPlaceReachAllScenesOnce)
+{
+    const osg::ref_ptr<MixedScene> other = new MixedScene;
+    other->addRendering(importNamed("toon"), {0.0, 0.0, 1.0, 2.0});
+    other->setMarks(MixMarks::Points); // not where the first one is
+    const osg::ref_ptr<osg::Group> all = new osg::Group, again = new osg::Group;
+    for (const auto& child : {_scene, other, _scene})
+        all->addChild(child);
+    again->addChild(_scene); // a second place
+    all->addChild(again);
+    const auto pressed = [&](int key)
+    {
+        aim(0.0, -0.3).keyPress(key);
+        _viewer.getViewer().getEventQueue()->keyRelease(key);
+        _viewer.renderFloat(all, _camera, Size, Size);
+    };
+    _viewer.renderFloat(all, _camera, Size, Size);
+    pressed(']');
+    EXPECT_NEAR(_scene->getRange(0).dr3, 4.4, 1e-9);
+    EXPECT_NEAR(other->getRange(0).dr3, 2.2, 1e-9);
+    pressed('K');
+    EXPECT_EQ(_scene->getMarks(), MixMarks::Points);
+    EXPECT_EQ(other->getMarks(), MixMarks::Points) << "as the first one has chosen";
+    pressed('J');
+    EXPECT_EQ(_scene->getKeyMode(), KeyMode::Polyline);
+    EXPECT_EQ(other->getKeyMode(), KeyMode::Polyline);
+}
+
 TEST_F(MixedKeysGLTest, aMarkerFollowsTheMouseParallelToTheScreen)
 {
     _scene->setMarks(MixMarks::Points);

@@ -5,6 +5,8 @@
 #include <osgMultiRender/MixFile.h>
 #include <support/TemporaryFolder.h>
 
+#include <osgDB/WriteFile>
+
 #include <chrono>
 #include <thread>
 
@@ -97,4 +99,62 @@ TEST_F(MixedWatchGLTest, anEditedMixTakesThePlaceOfTheOneBefore)
     waitFor(_red, _green);
     EXPECT_EQ(_scene->getRenderings().size(), 1u);
     EXPECT_EQ(_scene->getKeyPoints().size(), 1u);
+}
+
+TEST_F(MixedWatchGLTest, aMixWithABrokenRenderingLeavesWhatThatOneHasShown)
+{
+    const std::string red = _folder.write("own.frag", shader("1.0, 0.0, 0.0"));
+    const std::string mix = _folder.write("a.mix", R"({"renderings": [{"file": "own.frag"}]})");
+    std::string error;
+    ASSERT_TRUE(readMixFile(*_scene, mix, error)) << error;
+    EXPECT_EQ(color(), _red);
+    support::NotifyCapture capture;
+    _folder.write("own.frag", shader("0.0, missing, 0.0"));
+    _folder.write("a.mix", R"({"renderings": [{"file": "own.frag"}], "points": [[1, 2, 3]]})");
+    _scene->readFilesAgain();
+    EXPECT_EQ(color(), _red);
+    EXPECT_EQ(_scene->getKeyPoints().size(), 1u) << "what is right in it counts";
+    const support::NotifyCapture::Lines warnings = capture.takeWarnings();
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_NE(warnings[0].find("own.frag:3"), std::string::npos) << warnings[0];
+    _scene->readFilesAgain(); // still broken: not forgotten either
+    EXPECT_EQ(color(), _red);
+    EXPECT_EQ(capture.takeWarnings().size(), 1u);
+    _folder.write("own.frag", shader("0.0, 0.0, 1.0"));
+    _scene->readFilesAgain();
+    waitFor(_red, _blue);
+}
+
+TEST_F(MixedWatchGLTest, aTextureThatIsPaintedOverIsSeenLive)
+{
+    const std::string file = _folder.file("map.png");
+    const auto paint = [&](const osg::Vec3& color)
+    {
+        const osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->allocateImage(2, 2, 1, GL_RGB, GL_UNSIGNED_BYTE);
+        for (unsigned int i = 0; i < 4; ++i)
+            image->setColor(osg::Vec4(color, 1.0f), i % 2, i / 2);
+        ASSERT_TRUE(osgDB::writeImageFile(*image, file));
+    };
+    paint(_red);
+    // A project names its textures beside it.
+    _folder.write("own.vert", "void main() { gl_Position = ftransform(); }\n");
+    _folder.write("own.frag", "uniform sampler2D map;\nvoid main() { gl_FragColor = "
+                              "texture2D(map, vec2(0.5)); }\n");
+    const std::string project = _folder.write(
+        "own.gdp",
+        R"(<GLSLang><VPCount numero="1"><Filenames><Filename0 VertexProgram="own.vert"/></Filenames>
+</VPCount><FPCount numero="1"><Filenames><Filename0 FragmentProgram="own.frag"/></Filenames></FPCount>
+<TexturedUsed NumberUsedTU="1"><TextureUnit0 Filename="map.png" MinFilter="9728" MagFilter="9728"
+ WrapS="10497" WrapT="10497" WrapR="10497" Target="3553"/></TexturedUsed>
+<UniformVariables><Uniform0 Type="1" Name="map" ArraySize="1" Min="0" Max="1"><Values Value0="0"/>
+</Uniform0></UniformVariables></GLSLang>)");
+    const Rendering rendering = importRendering(project);
+    ASSERT_TRUE(rendering.ok()) << (rendering.messages.empty() ? "" : rendering.messages[0].text);
+    ASSERT_EQ(rendering.textures.size(), 1u);
+    _scene->addRendering(rendering);
+    _scene->setWatching(true);
+    EXPECT_EQ(color(), _red);
+    paint(_green);
+    waitFor(_red, _green);
 }
