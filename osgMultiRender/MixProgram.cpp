@@ -180,7 +180,7 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
     for (const MergedUniform& merged : _merged.uniforms)
     {
         const osg::Uniform::Type type = osg::Uniform::getTypeId(merged.type);
-        if (type == osg::Uniform::UNDEFINED || merged.merged.compare(0, 4, "osg_") == 0)
+        if (type == osg::Uniform::UNDEFINED || merged.inBlock || merged.merged.compare(0, 4, "osg_") == 0)
             continue; // blocks and structs are the application's, osg_ is OSG's
         const int size = std::max(1, merged.arraySize);
         const std::uint16_t slot = _set.members[merged.rendering].slot;
