@@ -246,7 +246,8 @@ private:
             const bool instance = std::any_of(source.blocks.begin(), source.blocks.end(),
                                               [&](const GlslBlock& block)
                                               { return block.specifiers == declared.specifiers; });
-            if (instance || declared.kind == GlslDeclaration::Kind::BlockMember)
+            one.inBlock = declared.kind == GlslDeclaration::Kind::BlockMember;
+            if (instance || (one.inBlock && entity.merged.empty()))
             {
                 return;
             }
@@ -266,7 +267,7 @@ private:
                 count = static_cast<int>(std::min(1LL * count * size, 1000000LL));
             }
             one.arraySize = sizes.empty() ? 0 : count;
-            components = used ? count * sizeOf(source, one.type, 0) : 0;
+            components = used && !one.inBlock ? count * sizeOf(source, one.type, 0) : 0;
             if (isSampler(one.type) && used)
             {
                 samplers(program, one, source, declared);

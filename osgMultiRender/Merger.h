@@ -72,10 +72,11 @@ struct MergedFile
 struct MergedUniform
 {
     std::size_t rendering = 0;
-    std::string name;   ///< As the rendering's author knows it; of a block: the block's name.
-    std::string merged; ///< In the merged program.
-    std::string type;   ///< "block" for uniform and storage blocks.
-    int arraySize = 0;  ///< 0: no array.
+    std::string name;     ///< As the rendering's author knows it; of a block: the block's name.
+    std::string merged;   ///< In the merged program.
+    std::string type;     ///< "block" for uniform and storage blocks.
+    bool inBlock = false; ///< A member of a block without a name: set by the block's buffer.
+    int arraySize = 0;    ///< 0: no array.
     bool vertex = false, fragment = false; ///< The stages that declare it.
     std::vector<unsigned int> units;       ///< Of samplers: the texture unit of each element.
     int ownBinding = -1; ///< Of blocks: the one that the rendering's text asks for.

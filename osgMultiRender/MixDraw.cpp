@@ -95,6 +95,7 @@ void MixDraw::fillPlan(Plan& plan) const
                     {"merged program", PlanEntry::Decision::Drawn, message.text});
     const MixPrograms::Counts counts = _resources->programs.getCounts();
     plan.counts["mix.programs"] = counts.kept;
+    plan.counts["mix.programs.started"] = counts.started;
     plan.counts["mix.programs.merged"] = counts.merged;
     plan.counts["mix.programs.linked"] = counts.linked;
     plan.counts["mix.programs.tried"] = counts.tried;

@@ -40,7 +40,7 @@ glm::dvec3 toGlm(const osg::Vec3d& v)
 
 MixPass::MixPass(std::shared_ptr<MixResources> resources,
                  std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& toScene)
-    : _draw(std::move(resources), std::move(snapshot)), _keysToEye(toScene)
+    : _draw(std::move(resources), std::move(snapshot)), _keysToScene(toScene), _keysToEye(toScene)
 {
 }
 
@@ -112,21 +112,14 @@ SurfaceLook* MixPass::look(const SurfaceState&, const osgUtil::RenderLeaf& leaf)
 
 void MixPass::end(osg::RenderInfo& renderInfo)
 {
-    if (!_draw.getFrame().isSettled || !_draw.getFrame().all)
+    if (!_draw.getFrame().all)
         return;
-    // One a frame, the one that most leaves wait for.
-    const MixSet* wanted = nullptr;
-    unsigned int most = 0;
+    std::map<MixSet, unsigned int> missing;
     for (const auto& [set, shown] : _sets)
-        if (!shown.program && shown.leaves > most &&
-            set.members != _draw.getFrame().all->getSet().members)
-        {
-            wanted = &set;
-            most = shown.leaves;
-        }
-    if (wanted)
-        _draw.getResources().programs.make(*wanted, _draw.shareSnapshot(), *renderInfo.getState(),
-                                           _draw.getSnapshot().settleFrames == 0);
+        if (!shown.program && set.members != _draw.getFrame().all->getSet().members)
+            missing[set] = shown.leaves;
+    _draw.getResources().programs.makeWanted(missing, _draw.shareSnapshot(), _keysToScene,
+                                             *renderInfo.getState());
 }
 
 void MixPass::drawn(osg::RenderInfo&)

@@ -48,6 +48,7 @@ private:
     std::string nameOf(const MixSet& set) const;
 
     MixDraw _draw;
+    const osg::Matrixd _keysToScene;
     osg::Matrixd _keysToEye, _eyeToKeys;
     bool _isCulled = false;
     std::map<MixSet, Shown> _sets;

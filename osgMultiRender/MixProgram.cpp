@@ -103,6 +103,14 @@ std::string weightsOf(const MixSet& set, bool isOfFrame)
            "}\n";
 }
 
+/// Null where the program reads the model's texture.
+const RenderingTexture* ownTexture(const MergedTexture& texture, const MixSet::Member& member,
+                                   const MixSnapshot& snapshot)
+{
+    return texture.own ? snapshot.slots[member.slot].rendering->findTexture(texture.ownUnit)
+                       : nullptr;
+}
+
 } // namespace
 
 bool MixSet::has(std::uint16_t slot) const
@@ -142,12 +150,24 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
     return mergeRenderings(entries, options);
 }
 
-MixProgram::MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snapshot)
+void readTextures(const MixSet& set, const Merged& merged, const MixSnapshot& snapshot,
+                  MixTextures& textures)
+{
+    for (const MergedTexture& texture : merged.textures)
+    {
+        const MixSet::Member& member = set.members[texture.rendering];
+        if (const RenderingTexture* own = ownTexture(texture, member, snapshot))
+            textures.get(member.id, *own);
+    }
+}
+
+MixProgram::MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snapshot,
+                       MixTextures& textures)
     : SurfaceLook(makeProgram(merged, set), new osg::StateSet), _set(set),
       _merged(std::move(merged))
 {
     addUniforms(snapshot);
-    addTextures(snapshot);
+    addTextures(snapshot, textures);
 }
 
 bool MixProgram::covers(std::uint16_t slot) const
@@ -163,7 +183,7 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
     for (const MergedUniform& merged : _merged.uniforms)
     {
         const osg::Uniform::Type type = osg::Uniform::getTypeId(merged.type);
-        if (type == osg::Uniform::UNDEFINED || merged.merged.compare(0, 4, "osg_") == 0)
+        if (type == osg::Uniform::UNDEFINED || merged.inBlock || merged.merged.compare(0, 4, "osg_") == 0)
             continue; // blocks and structs are the application's, osg_ is OSG's
         const int size = std::max(1, merged.arraySize);
         const std::uint16_t slot = _set.members[merged.rendering].slot;
@@ -180,17 +200,16 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
     }
 }
 
-void MixProgram::addTextures(const MixSnapshot& snapshot)
+void MixProgram::addTextures(const MixSnapshot& snapshot, MixTextures& textures)
 {
     for (const MergedTexture& texture : _merged.textures)
     {
-        const MixSlot& slot = snapshot.slots[_set.members[texture.rendering].slot];
-        const RenderingTexture* own =
-            texture.own ? slot.rendering->findTexture(texture.ownUnit) : nullptr;
+        const MixSet::Member& member = _set.members[texture.rendering];
+        const RenderingTexture* own = ownTexture(texture, member, snapshot);
         // Below the model's own textures, above nothing: a model without one is white.
-        _stateSet->setTextureAttribute(texture.unit, own ? readTexture(*own) : whiteTexture(),
-                                       own ? osg::StateAttribute::OVERRIDE
-                                           : osg::StateAttribute::ON);
+        _stateSet->setTextureAttribute(
+            texture.unit, own ? textures.get(member.id, *own) : textures.getWhite(),
+            own ? osg::StateAttribute::OVERRIDE : osg::StateAttribute::ON);
     }
 }
 

@@ -47,17 +47,24 @@ struct MixSet
     bool has(std::uint16_t slot) const;
 };
 
+class MixTextures;
+
 /// The texture unit of the sampler of mix.glsl; the table of units is in docs/design.md.
 constexpr unsigned int MixUnit = 11;
 
 /// Merges the renderings of a set. Entries of the result are its members, in order.
 Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits);
 
+/// Reads the files of the textures that the program of the set needs, so that MixProgram need not.
+void readTextures(const MixSet& set, const Merged& merged, const MixSnapshot& snapshot,
+                  MixTextures& textures);
+
 /// A set's program, and the StateSet with what it needs beside key points and weights.
 class MixProgram : public SurfaceLook
 {
 public:
-    MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snapshot);
+    MixProgram(const MixSet& set, Merged merged, const MixSnapshot& snapshot,
+               MixTextures& textures);
 
     const MixSet& getSet() const { return _set; }
     const Merged& getMerged() const { return _merged; }
@@ -94,7 +101,7 @@ private:
     };
 
     void addUniforms(const MixSnapshot& snapshot);
-    void addTextures(const MixSnapshot& snapshot);
+    void addTextures(const MixSnapshot& snapshot, MixTextures& textures);
 
     MixSet _set;
     Merged _merged;

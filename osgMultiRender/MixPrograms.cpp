@@ -61,6 +61,7 @@ MixPrograms::withoutBroken(const std::shared_ptr<const MixSnapshot>& snapshot, o
     std::lock_guard<std::mutex> lock(_mutex);
     if (!_limits)
         _limits = limitsOf(state);
+    forgetCombinations(*snapshot);
     tryNew(*snapshot, state);
     std::shared_ptr<MixSnapshot> changed;
     for (std::size_t i = 0; i < snapshot->slots.size(); ++i)
@@ -89,9 +90,6 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
     ++_frame;
     if (!_limits)
         _limits = limitsOf(state);
-    _quietFrames = _mixRevision == snapshot->mixRevision ? _quietFrames + 1 : 0;
-    _mixRevision = snapshot->mixRevision;
-    forgetCombinations(*snapshot);
     tryNew(*snapshot, state);
     for (;;)
     {
@@ -122,18 +120,22 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
     }
     forget(*snapshot);
     Frame frame;
-    frame.isSettled = _quietFrames >= snapshot->settleFrames;
     fillFrame(*snapshot, frame);
     return frame;
 }
 
-/// What failed with others alone is tried again when these are others.
+/// What failed only with others is tried again when these are others. Of the renderings as they
+/// were set, not of those that stand in for broken ones.
 void MixPrograms::forgetCombinations(const MixSnapshot& snapshot)
 {
     std::set<std::uint64_t> ids;
     for (const MixSlot& slot : snapshot.slots)
+    {
         if (slot.rendering)
             ids.insert(slot.id);
+        if (slot.rendering && slot.before)
+            ids.insert(slot.before->id);
+    }
     if (ids == _ids)
         return;
     for (const std::uint64_t id : _together)
@@ -149,6 +151,7 @@ void MixPrograms::forgetCombinations(const MixSnapshot& snapshot)
                          [&](const MixSet::Member& m) { return isGone(m.id); })
                  ? _broken.erase(at)
                  : std::next(at);
+    _textures.keep(ids);
     _ids = std::move(ids);
 }
 
@@ -228,12 +231,26 @@ osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set)
     return found->second;
 }
 
-osg::ref_ptr<MixProgram> MixPrograms::make(const MixSet& set,
-                                           const std::shared_ptr<const MixSnapshot>& snapshot,
-                                           osg::State& state, bool waits)
+void MixPrograms::makeWanted(const std::map<MixSet, unsigned int>& missing,
+                             const std::shared_ptr<const MixSnapshot>& snapshot,
+                             const osg::Matrixd& keysToScene, osg::State& state)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    return build(set, snapshot, state, waits);
+    const osg::FrameStamp* stamp = state.getFrameStamp();
+    const unsigned int frame = stamp ? stamp->getFrameNumber() : static_cast<unsigned int>(_frame);
+    _rest.see(snapshot->mixRevision, keysToScene, frame);
+    const MixSet* wanted = nullptr;
+    unsigned int most = 0;
+    for (const auto& [set, leaves] : missing)
+        if (_rest.want(set, frame) >= snapshot->settleFrames && leaves > most)
+        {
+            wanted = &set;
+            most = leaves;
+        }
+    // The program of all comes first: the others only save time.
+    const bool isWhole = _all && _all->getSet() == allOf(*snapshot);
+    if (wanted && isWhole && _rest.getQuietFrames(frame) >= snapshot->settleFrames)
+        build(*wanted, snapshot, state, snapshot->settleFrames == 0);
 }
 
 /// Null where it is not ready, or broken.
@@ -241,45 +258,71 @@ osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
                                             const std::shared_ptr<const MixSnapshot>& snapshot,
                                             osg::State& state, bool waits)
 {
-    if (const auto found = _programs.find(set); found != _programs.end())
-        return found->second;
-    if (_broken.count(set))
-        return nullptr;
-    const bool isRunning =
-        _job && _job->merged.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
-    if (_job && !(_job->set == set))
+    const auto known = [&]
     {
-        if (isRunning && !waits)
-            return nullptr; // one at a time
-        _job.reset();       // waits for it
-    }
-    if (!_job)
-        _job = Job{set, snapshot,
-                   std::async(std::launch::async, [set, snapshot, limits = *_limits]
-                              { return mergeSet(set, *snapshot, limits); })};
-    if (!waits && _job->merged.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        const auto found = _programs.find(set);
+        return found == _programs.end() ? nullptr : found->second;
+    };
+    if (const osg::ref_ptr<MixProgram> program = known())
+        return program;
+    // One at a time; what is ready is claimed, whoever has wanted it.
+    if (_job && !waits && !isReady())
         return nullptr;
+    if (_job)
+        claim(state);
+    if (const osg::ref_ptr<MixProgram> program = known(); program || _broken.count(set))
+        return program;
+    start(set, snapshot);
+    if (!waits)
+        return nullptr;
+    claim(state);
+    return known();
+}
+
+bool MixPrograms::isReady() const
+{
+    return _job->merged.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+void MixPrograms::start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot)
+{
+    ++_counts.started;
+    _job = Job{set, snapshot,
+               std::async(std::launch::async,
+                          [this, set, snapshot, limits = *_limits]
+                          {
+                              Merged merged = mergeSet(set, *snapshot, limits);
+                              if (merged.ok)
+                                  readTextures(set, merged, *snapshot, _textures);
+                              return merged;
+                          })};
+}
+
+/// Takes what the job has made, waiting for it, and links it.
+void MixPrograms::claim(osg::State& state)
+{
     Merged merged = _job->merged.get();
-    const std::shared_ptr<const MixSnapshot> from = _job->snapshot;
+    const Job job = std::move(*_job);
     _job.reset();
     ++_counts.merged;
     _counts.mergeMilliseconds += merged.statistics.milliseconds;
-    osg::ref_ptr<MixProgram> program;
-    if (merged.ok)
-        program = new MixProgram(set, merged, *from);
-    std::string cause;
-    if (!program)
-        cause = errorsOf(merged);
-    else if (!link(*program, state))
-        cause = "the driver does not link it";
-    if (!cause.empty())
+    for (const MixSet::Member& member : job.set.members)
+        if (!_ids.count(member.id))
+            return; // gone meanwhile
+    if (!merged.ok)
     {
-        _broken[set] = cause;
-        return nullptr;
+        _broken[job.set] = errorsOf(merged);
+        return;
+    }
+    const osg::ref_ptr<MixProgram> program =
+        new MixProgram(job.set, std::move(merged), *job.snapshot, _textures);
+    if (!link(*program, state))
+    {
+        _broken[job.set] = "the driver does not link it";
+        return;
     }
     program->lastUsed = _frame;
-    _programs[set] = program;
-    return program;
+    _programs[job.set] = program;
 }
 
 bool MixPrograms::link(MixProgram& program, osg::State& state)

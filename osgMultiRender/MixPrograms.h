@@ -3,6 +3,8 @@
 #pragma once
 
 #include <osgMultiRender/MixProgram.h>
+#include <osgMultiRender/MixRest.h>
+#include <osgMultiRender/MixTexture.h>
 
 #include <osg/State>
 
@@ -31,12 +33,11 @@ public:
         osg::ref_ptr<MixProgram> all;                               ///< Null: nothing can be shown.
         std::vector<bool> isShown;                                  ///< By slot.
         std::vector<std::pair<std::uint16_t, std::string>> leftOut; ///< Slots, and why.
-        bool isSettled = false; ///< Nothing has moved for as long as the snapshot says.
     };
 
     struct Counts
     {
-        double merged = 0.0, linked = 0.0, tried = 0.0, evicted = 0.0, kept = 0.0;
+        double started = 0.0, merged = 0.0, linked = 0.0, tried = 0.0, evicted = 0.0, kept = 0.0;
         double mergeMilliseconds = 0.0, linkMilliseconds = 0.0; ///< All together.
     };
 
@@ -49,10 +50,12 @@ public:
     Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
     /// The linked program of exactly this set, or null.
     osg::ref_ptr<MixProgram> find(const MixSet& set);
-    /// Has it made; `waits`: at once.
-    osg::ref_ptr<MixProgram> make(const MixSet& set,
-                                  const std::shared_ptr<const MixSnapshot>& snapshot,
-                                  osg::State& state, bool waits);
+    /// At the end of each view's frame, with the sets that were wanted and are not there, each with
+    /// how many drawables wait for it. Has the one that most wait for made, if nothing has moved,
+    /// and it has been wanted, for as long as the snapshot says.
+    void makeWanted(const std::map<MixSet, unsigned int>& missing,
+                    const std::shared_ptr<const MixSnapshot>& snapshot,
+                    const osg::Matrixd& keysToScene, osg::State& state);
 
     Counts getCounts() const;
     /// Of the program that shows all; "" before there is one.
@@ -76,6 +79,9 @@ private:
     osg::ref_ptr<MixProgram> build(const MixSet& set,
                                    const std::shared_ptr<const MixSnapshot>& snapshot,
                                    osg::State& state, bool waits);
+    void start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot);
+    bool isReady() const;
+    void claim(osg::State& state);
     bool link(MixProgram& program, osg::State& state);
     void forget(const MixSnapshot& snapshot);
     void fillFrame(const MixSnapshot& snapshot, Frame& frame) const;
@@ -84,15 +90,15 @@ private:
     std::optional<MergeLimits> _limits;
     std::map<MixSet, osg::ref_ptr<MixProgram>> _programs; ///< Linked ones.
     osg::ref_ptr<MixProgram> _all;                        ///< The last good one.
-    std::optional<Job> _job;
+    MixTextures _textures;
+    std::optional<Job> _job;                      ///< Behind what it uses: it is waited for.
     std::map<MixSet, std::string> _broken;        ///< Not merged or not linked, why.
     std::set<std::uint64_t> _tried;               ///< Renderings.
     std::map<std::uint64_t, std::string> _failed; ///< Of these, why.
     std::set<std::uint64_t> _together;            ///< Failed ones that are fine alone.
     std::set<std::uint64_t> _ids;                 ///< Of the last frame's renderings.
-    std::uint64_t _frame = 0;
-    std::uint64_t _mixRevision = 0;
-    unsigned int _quietFrames = 0;
+    std::uint64_t _frame = 0;                     ///< Of any view.
+    MixRest _rest;
     Counts _counts;
 };
 

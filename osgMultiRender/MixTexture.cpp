@@ -32,6 +32,14 @@ osg::ref_ptr<osg::Texture> makeTexture(unsigned int target)
     }
 }
 
+osg::ref_ptr<osg::Image> whiteImage()
+{
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
+    image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f), 0, 0);
+    return image;
+}
+
 osg::ref_ptr<osg::Image> readImage(const std::string& fileName)
 {
     osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
@@ -41,7 +49,7 @@ osg::ref_ptr<osg::Image> readImage(const std::string& fileName)
         return image;
     OSG_WARN << "osgMultiRender::MixedScene: the texture '" << fileName
              << "' can't be read and is white; put the file there or name another one" << std::endl;
-    return whiteTexture()->getImage(0);
+    return whiteImage();
 }
 
 } // namespace
@@ -66,14 +74,36 @@ osg::ref_ptr<osg::Texture> readTexture(const RenderingTexture& texture)
     return result;
 }
 
-osg::ref_ptr<osg::Texture> whiteTexture()
+osg::ref_ptr<osg::Texture> MixTextures::get(std::uint64_t id, const RenderingTexture& texture)
 {
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(1, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE);
-    image->setColor(osg::Vec4(1.0f, 1.0f, 1.0f, 1.0f), 0, 0);
-    osg::ref_ptr<osg::Texture2D> texture = new osg::Texture2D(image);
-    texture->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
-    return texture;
+    const std::pair<std::uint64_t, unsigned int> key(id, texture.unit);
+    {
+        std::lock_guard<std::mutex> lock(_mutex);
+        if (const auto known = _textures.find(key); known != _textures.end())
+            return known->second;
+    }
+    // Files are read outside of the lock; the first one that is there counts.
+    const osg::ref_ptr<osg::Texture> read = readTexture(texture);
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _textures.try_emplace(key, read).first->second;
+}
+
+osg::ref_ptr<osg::Texture> MixTextures::getWhite()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_white)
+    {
+        _white = new osg::Texture2D(whiteImage());
+        _white->setFilter(osg::Texture::MIN_FILTER, osg::Texture::NEAREST);
+    }
+    return _white;
+}
+
+void MixTextures::keep(const std::set<std::uint64_t>& ids)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (auto at = _textures.begin(); at != _textures.end();)
+        at = ids.count(at->first.first) ? std::next(at) : _textures.erase(at);
 }
 
 } // namespace osgMultiRender

@@ -55,6 +55,29 @@ TEST(MergePlanTest, uniformsAreFoundByRenderingAndName)
     EXPECT_EQ(merged.nameOf(7, "color"), "");
 }
 
+TEST(MergePlanTest, membersOfBlocksWithoutANameAreFoundByRenderingAndName)
+{
+    const std::string text =
+        "#version 330 compatibility\nlayout(std140) uniform Light { vec4 tint; float power[2]; };\n"
+        "uniform Named { vec4 own; } named;\n"
+        "void main() { gl_FragColor = tint * power[1] + named.own; }";
+    const Merged merged = merge({mergeCase("a", text), mergeCase("b", text)});
+    ASSERT_TRUE(merged.ok);
+    for (const std::size_t rendering : {std::size_t(0), std::size_t(1)})
+    {
+        const MergedUniform* tint = merged.findUniform(rendering, "tint");
+        ASSERT_TRUE(tint);
+        EXPECT_TRUE(tint->inBlock);
+        EXPECT_EQ(tint->type, "vec4");
+        EXPECT_NE(merged.fragment.find("vec4 " + tint->merged + ";"), std::string::npos)
+            << merged.fragment;
+        EXPECT_NE(merged.fragment.find(merged.nameOf(rendering, "power[1]")), std::string::npos);
+        EXPECT_FALSE(merged.findUniform(rendering, "own")) << "it is named.own";
+        EXPECT_FALSE(merged.findUniform(rendering, "Light")->inBlock);
+    }
+    EXPECT_NE(merged.nameOf(0, "tint"), merged.nameOf(1, "tint"));
+}
+
 TEST(MergePlanTest, texturesOfTheirOwnGetUnitsWithoutCollision)
 {
     const std::string text =
