@@ -88,9 +88,9 @@ FoundHead findHead(const StoreFile& file)
     bool valid = false, damaged = true;
     std::uint64_t fileBytes = 0;
     // A writer may be about to replace a head that is read: look again before it counts as damaged.
-    for (int attempt = 0; attempt < 5 && damaged; ++attempt)
+    for (int attempt = 0; attempt < 3 && damaged; ++attempt)
     {
-        std::this_thread::sleep_for(std::chrono::milliseconds(attempt));
+        std::this_thread::sleep_for(std::chrono::microseconds(200 * attempt));
         fileBytes = file.getBytes();
         std::memset(static_cast<void*>(heads), 0, sizeof(heads));
         file.readSome(heads, sizeof(heads), 0);

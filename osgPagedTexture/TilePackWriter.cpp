@@ -91,7 +91,7 @@ TilePackWriter::Content::~Content()
     std::error_code error; // what is left over does no harm, the next writer removes it
     if (isNew)
     {
-        std::filesystem::remove(file.getPath(), error);
+        std::filesystem::remove(path + PartExtension, error);
     }
     else if (!headWritten)
     {
