@@ -106,17 +106,15 @@ TEST(TilePackKillTest, storeIsTheOldOrTheNewOneWheneverItsWriterIsKilled)
     const support::TemporaryFolder folder;
     const std::string path = folder.file("store.tiles");
     unsigned int version = 1;
-    // Disks differ: from at once to after some commits.
-    const auto start = std::chrono::steady_clock::now();
     buildSample(path, version, sampleSettings(300));
-    const std::chrono::duration<double, std::micro> commit =
-        std::chrono::steady_clock::now() - start;
-    std::uniform_int_distribution<int> moment(0, 1000 + 3 * static_cast<int>(commit.count()));
+    double commitMicroseconds = 1000.0;
     std::mt19937 random(20);
     int commits = 0;
     for (int i = 0; i < kills && !testing::Test::HasFailure(); ++i)
     {
         const Work work = Work(i % 3);
+        // Disks differ, also from one moment to the next: from at once to after some commits.
+        std::uniform_int_distribution<int> moment(0, 1000 + int(3 * commitMicroseconds));
         const unsigned int reported = killAfter(moment(random), path, work, version);
         const TilePackReader reader(path);
         const std::vector<std::string> problems = reader.verify();
@@ -127,9 +125,13 @@ TEST(TilePackKillTest, storeIsTheOldOrTheNewOneWheneverItsWriterIsKilled)
         version = reported + next;
 
         // What follows completes.
+        const auto start = std::chrono::steady_clock::now();
         TilePackWriter writer(path, {});
         putAll(writer, reader.getSettings().grid, ++version);
         writer.commit();
+        commitMicroseconds =
+            std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+                .count();
         EXPECT_TRUE(holds(TilePackReader(path), version));
     }
     compactTilePack(path);
