@@ -87,7 +87,12 @@ int main()
         TilePackWriter writer(pack, settings, options);
         putAll(writer);
     };
-    const std::vector<std::pair<std::string, std::function<std::size_t()>>> works = {
+    struct Work
+    {
+        std::string name;
+        std::function<std::size_t()> run; ///< Returns how many tiles it has dealt with.
+    };
+    const std::vector<Work> works = {
         {"pack, no sync", [&]() { return build(false), keys.size(); }},
         {"pack, synced", [&]() { return build(true), keys.size(); }},
         {"pack, read in order",
@@ -135,21 +140,21 @@ int main()
     std::map<std::string, std::vector<double>> rates;
     for (int round = 0; round < Rounds; ++round)
     {
-        for (const auto& [name, work] : works)
+        for (const Work& work : works)
         {
             std::filesystem::remove_all(folder.file("libvt"));
             std::size_t tiles = 0;
-            const double seconds = secondsOf([&]() { tiles = work(); });
-            rates[name].push_back(double(tiles) / seconds);
+            const double seconds = secondsOf([&]() { tiles = work.run(); });
+            rates[work.name].push_back(double(tiles) / seconds);
         }
     }
     std::printf("%zu tiles of %zu bytes, median and range of %d interleaved rounds, tiles/s\n",
                 keys.size(), TileBytes, Rounds);
-    for (const auto& [name, work] : works)
+    for (const Work& work : works)
     {
-        std::vector<double>& rate = rates[name];
+        std::vector<double>& rate = rates[work.name];
         std::sort(rate.begin(), rate.end());
-        std::printf("%-36s %9.0f  (%.0f - %.0f)\n", name.c_str(), rate[rate.size() / 2],
+        std::printf("%-36s %9.0f  (%.0f - %.0f)\n", work.name.c_str(), rate[rate.size() / 2],
                     rate.front(), rate.back());
     }
     return EXIT_SUCCESS;
