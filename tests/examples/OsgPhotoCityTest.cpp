@@ -7,6 +7,7 @@
 #include <osg/Texture2D>
 #include <osgDB/FileNameUtils>
 #include <osgDB/ReadFile>
+#include <osgDB/WriteFile>
 
 #include <gtest/gtest.h>
 
@@ -68,9 +69,22 @@ protected:
         return process.run();
     }
 
+    /// A photograph of its own, so that tests need none that is installed.
+    OsgPhotoCityTest()
+    {
+        fs::create_directory(folder.file("photos"));
+        osg::ref_ptr<osg::Image> image = new osg::Image;
+        image->allocateImage(900, 700, 1, GL_RGB, GL_UNSIGNED_BYTE);
+        for (int i = 0; i < 900 * 700 * 3; ++i)
+            image->data()[i] = static_cast<unsigned char>(
+                128 + 90 * std::sin(i / 3 % 900 * 0.05 + i % 3) * std::cos(i / 2700 * 0.03));
+        EXPECT_TRUE(osgDB::writeImageFile(*image, folder.file("photos/waves.jpg")));
+    }
+
     /// The model's path.
     std::string made(const std::string& name, std::vector<std::string> words) const
     {
+        words.insert(words.end(), {"--photos", folder.file("photos")});
         words.push_back(folder.file(name));
         const support::ProcessResult result = run(words);
         EXPECT_EQ(result.exitCode, 0) << result.errors;
@@ -159,7 +173,8 @@ TEST_F(OsgPhotoCityTest, everyFormatNamesPicturesThatAreThere)
 
 TEST_F(OsgPhotoCityTest, facadesAreUprightAndNotMirroredAndOnlyRepeatWherePicturesDo)
 {
-    const auto node = osgDB::readRefNodeFile(made("town.osgb", {"--textures", "80"}));
+    const auto node =
+        osgDB::readRefNodeFile(made("town.osgb", {"--textures", "80", "--bytes", "14MiB"}));
     ASSERT_TRUE(node);
     Surfaces found;
     node->accept(found);
@@ -194,6 +209,14 @@ TEST_F(OsgPhotoCityTest, facadesAreUprightAndNotMirroredAndOnlyRepeatWherePictur
     EXPECT_GT(repeated, 5);
     EXPECT_GT(alpha, 0);
     EXPECT_TRUE(found.images.lower_bound("normals") != found.images.end());
+}
+
+TEST_F(OsgPhotoCityTest, needsNoPhotographsToBeNamed)
+{
+    const std::string file = folder.file("town.osgb");
+    const support::ProcessResult result = run({"--textures", "1", "--bytes", "300KiB", file});
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_TRUE(osgDB::readRefNodeFile(file));
 }
 
 TEST_F(OsgPhotoCityTest, aSeedGivesOneTownAndOneSetOfPhotographs)
@@ -241,6 +264,7 @@ TEST_F(OsgPhotoCityTest, wrongSwitchesAndWhatCannotBeReachedAreNamed)
         EXPECT_EQ(result.exitCode, 1);
         return result.errors;
     };
+    fs::create_directory(folder.file("empty"));
     EXPECT_EQ(errorOf({}), "osgphotocity: no file to write is named; see --help\n");
     EXPECT_EQ(errorOf({"--textures", "0", "x.osgb"}),
               "osgphotocity: --textures needs a whole number from 1 to 50000, not '0'\n");
@@ -254,10 +278,11 @@ TEST_F(OsgPhotoCityTest, wrongSwitchesAndWhatCannotBeReachedAreNamed)
     EXPECT_NE(errorOf({folder.file("x.nothing")}).find("no plugin"), std::string::npos);
     EXPECT_NE(errorOf({"--photos", "/no/such", folder.file("x.osgb")}).find("'/no/such'"),
               std::string::npos);
-    EXPECT_NE(errorOf({"--photos", folder.getPath().string(), folder.file("x.osgb")})
-                  .find("no photograph"),
-              std::string::npos);
-    EXPECT_NE(errorOf({"--textures", "2", "--bytes", "2KiB", folder.file("x.osgb")})
+    EXPECT_NE(
+        errorOf({"--photos", folder.file("empty"), folder.file("x.osgb")}).find("no photograph"),
+        std::string::npos);
+    EXPECT_NE(errorOf({"--textures", "2", "--bytes", "2KiB", "--photos", folder.file("photos"),
+                       folder.file("x.osgb")})
                   .find("change --textures"),
               std::string::npos);
     EXPECT_FALSE(fs::exists(folder.file("x.osgb")));
