@@ -153,7 +153,7 @@ TEST_F(OsgPhotoCityTest, photographsDecodeAndHaveSidesOf512To8192OfAllKinds)
 
 TEST_F(OsgPhotoCityTest, everyFormatNamesPicturesThatAreThere)
 {
-    for (const char* ending : {"osgb", "osgt", "ive", "obj"})
+    for (const char* ending : {"osgb", "osgt", "ive", "obj", "iv"})
     {
         const std::string file =
             made("town." + std::string(ending), {"--textures", "30", "--bytes", "6MiB"});
