@@ -126,6 +126,18 @@ private:
         scale(from, to, std::sqrt(low * high), exact);
     }
 
+    /// At least one, and none of the last batch, which makes up for the rest.
+    Iterator halfOfTheBytes(Iterator from)
+    {
+        double half = 0.0;
+        for (Iterator job = from; job != _jobs.end(); ++job)
+            half += 0.5 * job->getExpected();
+        const Iterator last = _jobs.end() - std::ptrdiff_t(LastBatch);
+        for (double bytes = 0.0; from != last && bytes < half; ++from)
+            bytes += from->getExpected();
+        return from;
+    }
+
     void checkReach()
     {
         const double least = scale(_jobs.begin(), _jobs.end(), 1e-6, true);
@@ -141,12 +153,15 @@ private:
     {
         expect();
         checkReach();
+        // Again at about the sizes that they get: smaller pictures have more bytes a pixel.
+        fit(_jobs.begin(), _jobs.end(), _settings.bytes, false);
+        expect();
         double written = 0.0, correction = 1.0;
         Iterator from = _jobs.begin();
         while (std::size_t(_jobs.end() - from) > LastBatch)
         {
             fit(from, _jobs.end(), (_settings.bytes - written) / correction, false);
-            const Iterator to = from + (_jobs.end() - from) / 2;
+            const Iterator to = halfOfTheBytes(from);
             const auto [expected, bytes] = writeBatch(from, to);
             written += bytes;
             correction = bytes / expected;

@@ -24,9 +24,11 @@ int powerOfTwo(double side, double dither)
     return std::clamp(1 << int(std::floor(std::log2(side) + dither)), LeastSide, MostSide);
 }
 
-int anySide(double side)
+/// Odd, or even where that is allowed.
+int anySide(double side, bool even)
 {
-    return std::clamp(int(std::lround(side)), LeastSide, MostSide);
+    const int rounded = std::clamp(int(std::lround(side)), LeastSide + 1, MostSide - 1);
+    return even ? rounded : rounded | 1;
 }
 
 } // namespace
@@ -66,9 +68,6 @@ void setSize(Picture& picture, double pixels, bool exact)
         picture.rows = powerOfTwo(columns * shape, dither);
         return;
     }
-    picture.columns = anySide(columns);
-    picture.rows = anySide(columns * shape);
-    // Odd, but for the largest.
-    picture.columns -= picture.columns % 2 == 0 && picture.columns > LeastSide;
-    picture.rows -= picture.rows % 2 == 0 && picture.rows > LeastSide && dither < 0.7;
+    picture.columns = anySide(columns, false);
+    picture.rows = anySide(columns * shape, dither > 0.7);
 }

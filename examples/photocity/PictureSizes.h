@@ -8,6 +8,6 @@
 double naturalPixels(const Picture& picture);
 
 /// Gives it about so many pixels, in the shape of its surface; sides are 512 to 8192. Three of five
-/// have powers of two, unless `exact`; most of the others odd numbers. PNG files keep sizes of
-/// their own.
+/// have powers of two, unless `exact`; the others an odd number of columns, most of rows too. PNG
+/// files keep sizes of their own.
 void setSize(Picture& picture, double pixels, bool exact = false);

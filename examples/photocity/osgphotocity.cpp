@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "Inventor.h"
 #include "PictureSet.h"
 #include "Town.h"
 
@@ -225,9 +226,10 @@ void writeFlight(const Town& town, const Command& command)
 
 void make(Command& command)
 {
+    const bool inventor = osgDB::getLowerCaseFileExtension(command.file) == "iv";
     // Found out before minutes are spent on pictures.
-    if (!osgDB::Registry::instance()->getReaderWriterForExtension(
-            osgDB::getLowerCaseFileExtension(command.file)))
+    if (!inventor && !osgDB::Registry::instance()->getReaderWriterForExtension(
+                         osgDB::getLowerCaseFileExtension(command.file)))
         throw std::runtime_error("cannot write '" + command.file + "': no plugin for its ending");
     const std::filesystem::path file(command.file);
     if (!file.parent_path().empty() && !std::filesystem::is_directory(file.parent_path()))
@@ -245,7 +247,8 @@ void make(Command& command)
         totals = writePictures(town.pictures, sources, command.pictures,
                                [&](const PictureTotals& now) { line(now); });
     }
-    if (!osgDB::writeNodeFile(*town.scene, command.file))
+    if (!(inventor ? writeInventor(*town.scene, command.file)
+                   : osgDB::writeNodeFile(*town.scene, command.file)))
         throw std::runtime_error("cannot write '" + command.file + "'");
     std::printf("%s: %u JPEG files, %.1f MiB, %.1f megapixels; %u PNG files; seed %u\n",
                 command.file.c_str(), totals.jpegs, totals.bytes / 1048576.0, totals.pixels * 1e-6,
