@@ -73,8 +73,10 @@ std::vector<double> darkIn(const osg::Image& picture, int row)
     return middles;
 }
 
-class LabelProportionalGLTest : public PictureTest, public testing::WithParamInterface<std::size_t>
+class LabelProportionalGLTest : public testing::TestWithParam<std::size_t>
 {
+protected:
+    support::NotifyCapture _notify;
 };
 
 } // namespace
@@ -86,18 +88,22 @@ TEST_P(LabelProportionalGLTest, barsStandWhereTheAdvancesBeforeThemPutThem)
     if (!osgLabels::FontFace::open(Font, error))
         GTEST_SKIP() << "NOT TESTED: " << error;
     const std::string text = barsAndLetters(GetParam());
-    // So flat that any text fits its height and is as long as it will.
-    const auto strip = named(text, rectangle({-1.0f, 0.0f, -0.02f}, {2.0f, 0.0f, 0.0f},
+    const std::vector<double> expected = barsOf(text);
+    // A little longer than the text, so that it is there once.
+    const auto length = float(1.1 * 0.024 * (expected.back() + 0.34));
+    const auto strip = named(text, rectangle({-0.5f * length, 0.0f, -0.02f}, {length, 0.0f, 0.0f},
                                              {0.0f, 0.0f, 0.04f}, {1.0f, 1.0f, 1.0f, 1.0f}));
-    const auto scene = labelled(unlit(strip), std::string("proportional=on,plate=off,ink=#000000,"
-                                                          "readable=1,font=") +
-                                                  Font);
+    const auto group = unlit(strip);
+    group->addChild(named("", rectangle({-1.0f, 0.1f, -0.04f}, {2.0f, 0.0f, 0.0f},
+                                        {0.0f, 0.0f, 0.08f}, {1.0f, 1.0f, 1.0f, 1.0f})));
+    const auto scene = labelled(group, std::string("proportional=on,plate=off,ink=#000000,"
+                                                   "readable=1,font=") +
+                                           Font);
     const support::CameraSpec camera = {
         osg::Matrixd::lookAt(osg::Vec3d(0, -4, 0), osg::Vec3d(), osg::Vec3d(0, 0, 1)),
         osg::Matrixd::ortho(-1, 1, -0.04, 0.04, 1, 10)};
     const Picture picture = wideViewer().render(scene, camera, Wide, High, 2);
     keep(picture, "label-proportional-" + std::to_string(GetParam()));
-    const std::vector<double> expected = barsOf(text);
     // The highest row with as many runs as there are bars: the letters between are lower.
     std::vector<double> found;
     for (int row = High - 1; row >= 0 && found.size() != expected.size(); --row)
