@@ -23,15 +23,16 @@ bool overlaps(std::int64_t beginA, std::int64_t endA, std::int64_t beginB, std::
 std::set<std::pair<std::int64_t, std::int64_t>> touchedOneByOne(const TileGrid& grid,
                                                                 const PixelRect& pixels, int level)
 {
+    const std::int64_t texel = std::int64_t(1) << level;
     std::set<std::pair<std::int64_t, std::int64_t>> tiles;
     for (std::int64_t y = 0; y < grid.getRows(level); ++y)
     {
         for (std::int64_t x = 0; x < grid.getColumns(level); ++x)
         {
             const PixelRect tile = grid.getPixels({level, x, y});
-            if (overlaps(tile.x << level, (tile.x + tile.width) << level, pixels.x,
+            if (overlaps(tile.x * texel, (tile.x + tile.width) * texel, pixels.x,
                          pixels.x + pixels.width) &&
-                overlaps(tile.y << level, (tile.y + tile.height) << level, pixels.y,
+                overlaps(tile.y * texel, (tile.y + tile.height) * texel, pixels.y,
                          pixels.y + pixels.height))
             {
                 tiles.insert({x, y});
