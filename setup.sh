@@ -19,6 +19,8 @@ packages=(
     glslang-tools meshlab
     # sweeps: other encoders of texture blocks
     libstb-dev libsquish-dev
+    # tests: a peer that writes Deep Zoom
+    libvips-tools
 )
 
 missing=()
