@@ -15,7 +15,9 @@ public:
     explicit Writer(std::ostream& out) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _out(out)
     {
         _out.precision(9);
-        _out << "#Inventor V2.1 ascii\nSeparator {\nLightModel { model BASE_COLOR }\n"
+        // Inventor's y is up.
+        _out << "#Inventor V2.1 ascii\nSeparator {\nRotation { rotation 1 0 0 -1.57079633 }\n"
+                "LightModel { model BASE_COLOR }\n"
                 "BaseColor { rgb 1 1 1 }\n";
     }
     ~Writer() override { _out << "}\n"; }

@@ -3,6 +3,7 @@
 #include "PictureSet.h"
 #include "Town.h"
 
+#include <osg/MatrixTransform>
 #include <osgDB/FileNameUtils>
 #include <osgDB/WriteFile>
 #include <osgDB/fstream>
@@ -224,12 +225,25 @@ void writeFlight(const Town& town, const Command& command)
         throw std::runtime_error("cannot write '" + command.path + "'; does its folder exist?");
 }
 
+bool writeModel(osg::Node& town, const std::string& file)
+{
+    const std::string ending = osgDB::getLowerCaseFileExtension(file);
+    if (ending == "iv")
+        return writeInventor(town, file);
+    if (ending != "obj")
+        return osgDB::writeNodeFile(town, file);
+    // OSG's reader takes y for up, and its writer leaves all as it is.
+    osg::ref_ptr<osg::MatrixTransform> turned =
+        new osg::MatrixTransform(osg::Matrix::rotate(-osg::PI_2, osg::X_AXIS));
+    turned->addChild(&town);
+    return osgDB::writeNodeFile(*turned, file);
+}
+
 void make(Command& command)
 {
-    const bool inventor = osgDB::getLowerCaseFileExtension(command.file) == "iv";
+    const std::string ending = osgDB::getLowerCaseFileExtension(command.file);
     // Found out before minutes are spent on pictures.
-    if (!inventor && !osgDB::Registry::instance()->getReaderWriterForExtension(
-                         osgDB::getLowerCaseFileExtension(command.file)))
+    if (ending != "iv" && !osgDB::Registry::instance()->getReaderWriterForExtension(ending))
         throw std::runtime_error("cannot write '" + command.file + "': no plugin for its ending");
     const std::filesystem::path file(command.file);
     if (!file.parent_path().empty() && !std::filesystem::is_directory(file.parent_path()))
@@ -247,8 +261,7 @@ void make(Command& command)
         totals = writePictures(town.pictures, sources, command.pictures,
                                [&](const PictureTotals& now) { line(now); });
     }
-    if (!(inventor ? writeInventor(*town.scene, command.file)
-                   : osgDB::writeNodeFile(*town.scene, command.file)))
+    if (!writeModel(*town.scene, command.file))
         throw std::runtime_error("cannot write '" + command.file + "'");
     std::printf("%s: %u JPEG files, %.1f MiB, %.1f megapixels; %u PNG files; seed %u\n",
                 command.file.c_str(), totals.jpegs, totals.bytes / 1048576.0, totals.pixels * 1e-6,

@@ -2,6 +2,7 @@
 #include <support/ChildProcess.h>
 #include <support/TemporaryFolder.h>
 
+#include <osg/ComputeBoundsVisitor>
 #include <osg/Geometry>
 #include <osg/NodeVisitor>
 #include <osg/Texture2D>
@@ -166,6 +167,10 @@ TEST_F(OsgPhotoCityTest, everyFormatNamesPicturesThatAreThere)
         for (const fs::path& picture : files)
             EXPECT_EQ(found.surfaces.count(picture.filename().string()), 1u)
                 << ending << ": " << picture;
+        osg::ComputeBoundsVisitor bounds;
+        node->accept(bounds);
+        EXPECT_NEAR(bounds.getBoundingBox().zMin(), 0.0, 1e-3) << ending;
+        EXPECT_GT(bounds.getBoundingBox().zMax(), 8.0) << ending;
         // The model alone, without pixels.
         EXPECT_LT(fs::file_size(file), 1u << 20) << ending;
     }
