@@ -105,7 +105,9 @@ private:
                         Plan& plan) const
     {
         osg::State& state = *renderInfo.getState();
-        const osg::Viewport& viewport = *state.getCurrentViewport();
+        // A copy: osg::State forgets which one it has applied when other targets are visited.
+        const osg::ref_ptr<osg::Viewport> place = new osg::Viewport(*state.getCurrentViewport());
+        const osg::Viewport& viewport = *place;
         const unsigned int contextID = state.getContextID();
         osg::ref_ptr<MixFrameTargets> targets = _resources->frames.acquire(
             contextID, {int(viewport.width()), int(viewport.height()), target.colorFormat,
@@ -113,20 +115,21 @@ private:
         const std::string why = targets->copy(state, int(viewport.x()), int(viewport.y()));
         plan.counts["mix.frameBytes"] = double(targets->getBytes());
         if (why.empty())
-            drawTriangle(renderInfo, *targets, draw);
+            drawTriangle(renderInfo, *targets, draw, *place);
         _resources->frames.release(contextID, targets);
         return why;
     }
 
-    void drawTriangle(osg::RenderInfo& renderInfo, MixFrameTargets& targets, MixDraw& draw) const
+    void drawTriangle(osg::RenderInfo& renderInfo, MixFrameTargets& targets, MixDraw& draw,
+                      osg::Viewport& viewport) const
     {
         osg::State& state = *renderInfo.getState();
-        const osg::Viewport& viewport = *state.getCurrentViewport();
         MixProgram& program = *draw.getFrame().all;
         osg::StateSet& own = targets.getStateSet();
         own.setAttribute(const_cast<osg::Program*>(program.getProgram()),
                          osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE |
                              osg::StateAttribute::PROTECTED);
+        own.setAttribute(&viewport, osg::StateAttribute::OVERRIDE);
         own.getOrCreateUniform("osgmr_mixViewport", osg::Uniform::FLOAT_VEC4)
             ->set(osg::Vec4f(float(viewport.x()), float(viewport.y()),
                              float(2.0 / viewport.width()), float(2.0 / viewport.height())));
@@ -154,6 +157,7 @@ private:
         for (int i = 0; i < 4; ++i)
             state.popStateSet();
         state.apply();
+        state.applyAttribute(&viewport);
         state.applyModelViewMatrix(before.get());
     }
 

@@ -199,7 +199,8 @@ TEST_F(LabelsPlugin, osgviewersHelpHasTheKeys)
     const support::ProcessResult result = run({"osgviewer", "-e", "labels", "--help-keys"});
     ASSERT_FALSE(osgLabels::labelKeys().empty());
     for (const osgLabels::LabelKey& key : osgLabels::labelKeys())
-        EXPECT_NE(result.output.find(key.help), std::string::npos) << key.key << result.output;
+        EXPECT_NE(unwrapped(result.output).find(key.help), std::string::npos)
+            << key.key << result.output;
 }
 
 TEST_F(LabelsPlugin, savedScenesLookTheSameWhenReadAgain)

@@ -308,7 +308,8 @@ TEST_F(ShadowVolumePlugin, osgviewersHelpHasTheKeys)
     const support::ProcessResult result = run({"osgviewer", "-e", "shadowvolume", "--help-keys"});
     ASSERT_FALSE(osgShadowVolume::shadowKeys().empty());
     for (const osgShadowVolume::ShadowKey& key : osgShadowVolume::shadowKeys())
-        EXPECT_NE(result.output.find(key.help), std::string::npos) << key.key << result.output;
+        EXPECT_NE(unwrapped(result.output).find(key.help), std::string::npos)
+            << key.key << result.output;
 }
 
 TEST_F(ShadowVolumePlugin, withoutADisplayNoKeysAreListed)

@@ -7,6 +7,7 @@
 #include <osgDB/ReadFile>
 
 #include <filesystem>
+#include <sstream>
 
 void StockPrograms::SetUp()
 {
@@ -60,4 +61,13 @@ std::string StockPrograms::convert(const std::string& model, const std::string& 
 bool StockPrograms::differ(const osg::Image& a, const osg::Image& b)
 {
     return support::difference(a, b, 4.0 / 255.0).getShareOver() > 0.005;
+}
+
+std::string StockPrograms::unwrapped(const std::string& text)
+{
+    std::istringstream words(text);
+    std::string line;
+    for (std::string word; words >> word;)
+        line += (line.empty() ? "" : " ") + word;
+    return line;
 }

@@ -34,6 +34,9 @@ protected:
 
     static bool differ(const osg::Image& a, const osg::Image& b);
 
+    /// Lines that a program has wrapped and indented as one, words with a space between them.
+    static std::string unwrapped(const std::string& text);
+
     int _width = 128, _height = 96; ///< Of pictures.
     support::TemporaryFolder _folder;
 };
