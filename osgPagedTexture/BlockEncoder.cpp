@@ -13,12 +13,11 @@ namespace
 {
 
 /// RGBA, red in the lowest byte.
-std::uint32_t texelAt(const Pixels& pixels, int x, int y)
+std::uint32_t texelAt(const std::uint8_t* p, int channels)
 {
-    const std::uint8_t* p = pixels.row(y) + std::size_t(x) * pixels.channels;
     const auto pack = [](std::uint32_t r, std::uint32_t g, std::uint32_t b, std::uint32_t a)
     { return r | g << 8 | b << 16 | a << 24; };
-    switch (pixels.channels)
+    switch (channels)
     {
     case 1:
         return pack(p[0], p[0], p[0], 255);
@@ -29,6 +28,11 @@ std::uint32_t texelAt(const Pixels& pixels, int x, int y)
     default:
         return pack(p[0], p[1], p[2], p[3]);
     }
+}
+
+std::uint32_t texelAt(const Pixels& pixels, int x, int y)
+{
+    return texelAt(pixels.row(y) + std::size_t(x) * pixels.channels, pixels.channels);
 }
 
 /// The texels of one row of blocks, as the kernels take them.
@@ -78,29 +82,37 @@ private:
         return _words[(std::size_t(block / _lanes) * 16 + k) * _lanes + block % _lanes];
     }
 
+    void fourTexels(const std::uint8_t* source, std::uint32_t* words) const
+    {
+        if (_pixels.channels == 4)
+            std::memcpy(words, source, 16);
+        else if (_pixels.channels == 3)
+        {
+            // Twelve bytes as two overlapping numbers.
+            std::uint64_t low, high;
+            std::memcpy(&low, source, 8);
+            std::memcpy(&high, source + 4, 8);
+            words[0] = std::uint32_t(low) | 0xff000000u;
+            words[1] = std::uint32_t(low >> 24) | 0xff000000u;
+            words[2] = std::uint32_t(high >> 16) | 0xff000000u;
+            words[3] = std::uint32_t(high >> 40) | 0xff000000u;
+        }
+        else
+            for (int x = 0; x < 4; ++x)
+                words[x] = texelAt(source + x * _pixels.channels, _pixels.channels);
+    }
+
     void gatherLine(int row, int y)
     {
         const int whole = _pixels.width / 4;
         const std::uint8_t* source = _pixels.row(row);
         std::uint32_t* line = _words.data() + std::size_t(4 * y) * _lanes;
-        // Four bytes are read for three: not at the very end of the picture.
-        const bool inside = row + 1 < _pixels.height;
-        for (int block = 0, lane = 0; block < whole; ++block)
+        for (int block = 0, lane = 0; block < whole; ++block, source += 4 * _pixels.channels)
         {
+            std::uint32_t words[4];
+            fourTexels(source, words);
             for (int x = 0; x < 4; ++x)
-            {
-                std::uint32_t word = 0;
-                if (_pixels.channels == 4)
-                    std::memcpy(&word, source + 4 * (4 * std::size_t(block) + x), 4);
-                else if (_pixels.channels == 3 && inside)
-                {
-                    std::memcpy(&word, source + 3 * (4 * std::size_t(block) + x), 4);
-                    word |= 0xff000000u;
-                }
-                else
-                    word = texelAt(_pixels, 4 * block + x, row);
-                line[x * _lanes + lane] = word;
-            }
+                line[x * _lanes + lane] = words[x];
             if (++lane == _lanes)
             {
                 lane = 0;

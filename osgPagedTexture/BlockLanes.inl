@@ -5,6 +5,9 @@
 
 #include <cstdint>
 #include <cstring>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
 
 namespace
 {
@@ -19,6 +22,38 @@ inline Floats all(float value)
     return Floats{} + value;
 }
 
+// a < b ? a : b and a > b ? a : b, for which compilers do not find the instruction.
+#if defined(__x86_64__) && OSGPAGEDTEXTURE_LANES == 4
+inline Floats lesser(Floats a, Floats b)
+{
+    return _mm_min_ps(a, b);
+}
+
+inline Floats greater(Floats a, Floats b)
+{
+    return _mm_max_ps(a, b);
+}
+#elif defined(__x86_64__) && OSGPAGEDTEXTURE_LANES == 8
+inline Floats lesser(Floats a, Floats b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+inline Floats greater(Floats a, Floats b)
+{
+    return _mm256_max_ps(a, b);
+}
+#elif defined(__x86_64__) && OSGPAGEDTEXTURE_LANES == 16
+inline Floats lesser(Floats a, Floats b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+inline Floats greater(Floats a, Floats b)
+{
+    return _mm512_max_ps(a, b);
+}
+#else
 inline Floats lesser(Floats a, Floats b)
 {
     return a < b ? a : b;
@@ -28,6 +63,7 @@ inline Floats greater(Floats a, Floats b)
 {
     return a > b ? a : b;
 }
+#endif
 
 inline Floats clamped(Floats value, float from, float to)
 {
