@@ -18,7 +18,7 @@ packages=(
     # tests: a second GLSL compiler, real projects of ShaderDesigner
     glslang-tools meshlab
     # sweeps: other encoders of texture blocks
-    libstb-dev libsquish-dev
+    libstb-dev libsquish-dev libmagickwand-6.q16-dev
     # tests: a peer that writes Deep Zoom
     libvips-tools
 )

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Encoders of texture blocks: ours by instructions and quality, stb_dxt, libsquish.
+// Encoders of texture blocks: ours by instructions and quality, and others.
 #include <precision/EncoderSamples.h>
+#include <precision/OtherEncoders.h>
 #include <precision/Sweep.h>
 
 #include <osgPagedTexture/BlockEncoder.h>
-
-#ifdef OSGKITS_STB_DXT
-#define STB_DXT_IMPLEMENTATION
-#include <cstring>
-#include <stb/stb_dxt.h>
-#endif
-#ifdef OSGKITS_SQUISH
-#include <squish.h>
-#endif
 
 #include <cmath>
 #include <ctime>
@@ -37,28 +29,6 @@ double getThreadSeconds()
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
 }
-
-#if defined(OSGKITS_STB_DXT) || defined(OSGKITS_SQUISH)
-/// Block by block through RGBA, as these encoders want it.
-template <class Encode> Bytes encodeEach(const Pixels& pixels, Encode encode)
-{
-    Bytes bytes(std::size_t(pixels.width) * pixels.height / 2);
-    std::uint8_t* out = bytes.data();
-    for (int y = 0; y < pixels.height; y += 4)
-        for (int x = 0; x < pixels.width; x += 4, out += 8)
-        {
-            std::uint8_t texels[64];
-            for (int k = 0; k < 16; ++k)
-            {
-                const std::uint8_t* p = pixels.row(y + k / 4) + 3 * (x + k % 4);
-                const std::uint8_t texel[4] = {p[0], p[1], p[2], 255};
-                std::copy(texel, texel + 4, texels + 4 * k);
-            }
-            encode(texels, out);
-        }
-    return bytes;
-}
-#endif
 
 /// The error of all pictures, measured once for each encoder.
 class Judge
@@ -116,41 +86,17 @@ Method oursWith(const std::shared_ptr<Judge>& judge, BlockFormat format, Instruc
             }};
 }
 
-void addOthers([[maybe_unused]] const std::shared_ptr<Judge>& judge,
-               [[maybe_unused]] std::vector<Method>& methods)
+void addOthers(const std::shared_ptr<Judge>& judge, std::vector<Method>& methods)
 {
-#ifdef OSGKITS_STB_DXT
-    methods.push_back({"stb_dxt",
-                       "quality",
-                       {0, 1},
-                       [=](double value)
-                       {
-                           const int mode = value > 0 ? STB_DXT_HIGHQUAL : STB_DXT_NORMAL;
-                           const auto encode = [mode](const std::uint8_t* texels, std::uint8_t* out)
-                           { stb_compress_dxt_block(out, texels, 0, mode); };
-                           return judge->run("stb" + std::to_string(mode), BlockFormat::BC1,
-                                             [=](const Pixels& p)
-                                             { return encodeEach(p, encode); });
-                       }});
-#endif
-#ifdef OSGKITS_SQUISH
-    methods.push_back(
-        {"libsquish",
-         "range, cluster fit",
-         {0, 1},
-         [=](double value)
-         {
-             const int flags =
-                 squish::kDxt1 | (value > 0 ? squish::kColourClusterFit : squish::kColourRangeFit);
-             const auto encode = [flags](const std::uint8_t* texels, std::uint8_t* out)
-             {
-                 float metric[3] = {1.0f, 1.0f, 1.0f};
-                 squish::Compress(texels, out, flags, metric);
-             };
-             return judge->run("squish" + std::to_string(flags), BlockFormat::BC1,
-                               [=](const Pixels& p) { return encodeEach(p, encode); });
-         }});
-#endif
+    for (const OtherEncoder& other : getOtherEncoders())
+        methods.push_back({other.name, other.knob, other.values,
+                           [=](double value)
+                           {
+                               return judge->run(other.name + std::to_string(value),
+                                                 BlockFormat::BC1,
+                                                 [=](const Pixels& pixels)
+                                                 { return other.encode(pixels, value); });
+                           }});
 }
 
 Sweep makeSweep(EncoderSubject subject, const std::string& name, const std::string& what,
