@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // osgmerge: merges GPU programs into one and prints it.
+#include <examples/commandline/CommandLine.h>
+
 #include <osgMultiRender/Import.h>
 #include <osgMultiRender/Merger.h>
 
-#include <cstring>
 #include <fstream>
 #include <iostream>
 
@@ -12,31 +13,10 @@ using namespace osgMultiRender;
 namespace
 {
 
-constexpr char Help[] = R"(osgmerge merges complete GPU programs into one and prints it.
-
-usage: osgmerge [options] program...
-
-A program is a project of ShaderDesigner (name.gdp), one file of a GLSL pair (name.vert or
-name.frag, .vs or .fs; the other one is found beside it), or an image shader (mainImage).
-
-  -o <file>        write <file>.vert and <file>.frag instead of printing
-  --list           print each program's qualified variables, functions, globals, texture units
-  --map            print what uniforms, attributes and textures are in the merged program
-  --stats          print the time that merging took and what is shared
-  --base <n>       the program that gives the positions, counted from 0 (default 0)
-  --weights <file> GLSL that defines float osgmr_weight(int rendering)
-  --glsl <n>       the least GLSL version, 330 or more (default 330)
-  --no-share       do not share equal functions, constants, structs and varyings
-  --limit <name>=<n>  varyings, samplers, units, uniforms or attributes
-  --help           this text
-
-It ends with 0 if all programs are in the merged one, 1 if some were left out, 2 if there is none.
-)";
-
 struct Arguments
 {
     std::vector<std::string> files;
-    std::string output;
+    std::string output, weights;
     bool list = false, map = false, stats = false;
     MergeOptions options;
 };
@@ -47,25 +27,14 @@ int complain(const std::string& text)
     return 2;
 }
 
-bool readNumber(const std::string& text, int& value)
-{
-    if (text.empty() || text.size() > 7 ||
-        text.find_first_not_of("0123456789") != std::string::npos)
-    {
-        return false;
-    }
-    value = std::stoi(text);
-    return true;
-}
-
-bool setLimit(const std::string& text, MergeLimits& limits)
+/// Name and number. Returns what is wrong, or nothing.
+std::string setLimit(const std::string& text, MergeLimits& limits)
 {
     const std::size_t equals = text.find('=');
     int value = 0;
-    if (equals == std::string::npos || !readNumber(text.substr(equals + 1), value))
-    {
-        return false;
-    }
+    if (equals == std::string::npos || !CLI::detail::lexical_cast(text.substr(equals + 1), value) ||
+        value < 0)
+        return "'" + text + "' is not NAME=N";
     const std::string name = text.substr(0, equals);
     if (name == "varyings")
         limits.varyingVectors = value;
@@ -78,69 +47,68 @@ bool setLimit(const std::string& text, MergeLimits& limits)
     else if (name == "attributes")
         limits.vertexAttributes = value;
     else
-        return false;
-    return true;
+        return "'" + name + "' is none of varyings, samplers, units, uniforms, attributes";
+    return {};
 }
 
-bool readWeights(const std::string& name, std::string& text)
+void declareLimits(examples::CommandLine& line, MergeLimits& limits)
 {
-    std::ifstream file(name, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-    return file.good() || !text.empty();
+    line.add_option_function<std::vector<std::string>>(
+            "--limit",
+            [&limits](const std::vector<std::string>& texts)
+            {
+                for (const std::string& text : texts)
+                    if (const std::string fault = setLimit(text, limits); !fault.empty())
+                        throw CLI::ValidationError("--limit", fault);
+            },
+            "varyings, samplers, units, uniforms or attributes; may be\nrepeated")
+        ->expected(1)
+        ->take_all()
+        ->type_name("NAME=N");
 }
 
-/// An option with a value. Returns a complaint, or nothing.
-std::string setOption(const std::string& option, const std::string& value, Arguments& arguments)
+void declare(examples::CommandLine& line, Arguments& arguments)
 {
-    int number = 0;
-    if (option == "-o")
-        arguments.output = value;
-    else if (option == "--base" && readNumber(value, number))
-        arguments.options.base = static_cast<std::size_t>(number);
-    else if (option == "--glsl" && readNumber(value, number))
-        arguments.options.version.number = number;
-    else if (option == "--weights")
-        return readWeights(value, arguments.options.weights) ? "" : value + ": can't be read";
-    else if (option != "--limit" || !setLimit(value, arguments.options.limits))
-        return option + ": '" + value + "' is not a value for it";
-    return "";
+    line.add_option("PROGRAM", arguments.files,
+                    "a project of ShaderDesigner (name.gdp), one file of a GLSL\n"
+                    "pair (name.vert or name.frag, .vs or .fs; the other one is\n"
+                    "found beside it), or an image shader (mainImage)")
+        ->type_name("")
+        ->required();
+    line.add_option("-o", arguments.output,
+                    "writes <FILE>.vert and <FILE>.frag instead of printing")
+        ->type_name("FILE");
+    line.add_flag("--list", arguments.list,
+                  "prints each program's qualified variables, functions,\nglobals, texture units");
+    line.add_flag("--map", arguments.map,
+                  "prints what uniforms, attributes and textures are in the\nmerged program");
+    line.add_flag("--stats", arguments.stats,
+                  "prints the time that merging took and what is shared");
+    line.addNumber<std::size_t>("--base", arguments.options.base, 0, 9999,
+                                "the program that gives the positions, counted from 0");
+    line.add_option("--weights", arguments.weights,
+                    "GLSL that defines float osgmr_weight(int rendering)")
+        ->type_name("FILE");
+    line.addNumber("--glsl", arguments.options.version.number, 0, 9999,
+                   "the least GLSL version, 330 or more");
+    line.add_flag_callback(
+        "--no-share", [&arguments] { arguments.options.share = false; },
+        "does not share equal functions, constants, structs and\nvaryings");
+    declareLimits(line, arguments.options.limits);
+    line.footer(
+        "It ends with 0 if all programs are in the merged one, 1 if some were left out, 2 if "
+        "there is none.");
 }
 
-/// Returns the exit status, or -1 to go on.
-int readArguments(int argc, char** argv, Arguments& arguments)
+/// False where the file can't be read.
+bool readWeights(Arguments& arguments)
 {
-    for (int i = 1; i < argc; ++i)
-    {
-        const std::string option = argv[i];
-        const bool valued = option == "-o" || option == "--base" || option == "--glsl" ||
-                            option == "--weights" || option == "--limit";
-        if (option == "--help" || option == "-h")
-        {
-            std::cout << Help;
-            return 0;
-        }
-        if (option == "--list")
-            arguments.list = true;
-        else if (option == "--map")
-            arguments.map = true;
-        else if (option == "--stats")
-            arguments.stats = true;
-        else if (option == "--no-share")
-            arguments.options.share = false;
-        else if (valued)
-        {
-            if (i + 1 == argc)
-                return complain(option + " needs a value; see --help");
-            const std::string fault = setOption(option, argv[++i], arguments);
-            if (!fault.empty())
-                return complain(fault);
-        }
-        else if (option.size() > 1 && option[0] == '-')
-            return complain("unknown option '" + option + "'; see --help");
-        else
-            arguments.files.push_back(option);
-    }
-    return arguments.files.empty() ? complain("name at least one program; see --help") : -1;
+    if (arguments.weights.empty())
+        return true;
+    std::ifstream file(arguments.weights, std::ios::binary);
+    arguments.options.weights.assign(std::istreambuf_iterator<char>(file),
+                                     std::istreambuf_iterator<char>());
+    return file.good() || !arguments.options.weights.empty();
 }
 
 void printList(const char* title, const std::vector<std::string>& lines)
@@ -236,9 +204,12 @@ int print(const Arguments& arguments, const Merged& merged)
 int main(int argc, char** argv)
 {
     Arguments arguments;
-    const int done = readArguments(argc, argv, arguments);
-    if (done >= 0)
-        return done;
+    examples::CommandLine line("Merges complete GPU programs into one and prints it.", "osgmerge");
+    declare(line, arguments);
+    if (const auto status = line.read(argc, argv, 2))
+        return *status;
+    if (!readWeights(arguments))
+        return complain(arguments.weights + ": can't be read");
     std::vector<Rendering> renderings;
     std::vector<MergeEntry> entries;
     bool complete = true;

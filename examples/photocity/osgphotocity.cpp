@@ -3,6 +3,8 @@
 #include "PictureSet.h"
 #include "Town.h"
 
+#include <examples/commandline/CommandLine.h>
+
 #include <osg/MatrixTransform>
 #include <osgDB/FileNameUtils>
 #include <osgDB/WriteFile>
@@ -13,7 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -28,26 +30,6 @@
 namespace
 {
 
-constexpr char Help[] =
-    R"(osgphotocity [options] FILE
-Writes a generated town whose facades, roofs, squares and streets have a photograph each, and the
-photographs: JPEG files, all different, of 512 to 8192 pixels a side, many of odd sizes, some grey,
-some progressive; PNG with alpha for fences and trees; a few normal maps, in texture unit 1. They
-are cut from the photographs that are installed: turned, scaled, in other colours. The ending says
-the format: .osgb, .osgt, .ive, .obj, .iv. The pictures lie in a folder beside it, FILE without its
-ending and _photos. Metres, z is up.
-
-  --textures N   how many JPEG files, 1 to 50000; default 200, with --bytes one for 550 KiB
-  --bytes B      of all JPEG files together, such as 1.5GiB or 200MiB; sizes are chosen for it
-  --quality N    of the JPEG files, 1 to 100; default 90
-  --photos DIR   photographs to cut from; may be repeated; default: /usr/share/backgrounds and
-                 /usr/share/wallpapers, and where there are none, patterns of noise
-  --path FILE    also writes a flight through the streets, as osgviewer -p reads it
-  --seed N       another number gives another town; default 1
-  --out FILE     the same as FILE
-  --help         this text
-)";
-
 constexpr unsigned int MostTextures = 50000, MostSources = 24;
 constexpr double BytesPerTexture = 550.0 * 1024.0;
 
@@ -57,7 +39,6 @@ struct Command
     PictureSettings pictures;
     std::vector<std::string> photos;
     std::string file, path;
-    bool texturesGiven = false, help = false;
 };
 
 int fail(const std::string& message)
@@ -66,98 +47,62 @@ int fail(const std::string& message)
     return 1;
 }
 
-bool readNumber(const std::string& text, std::uint32_t least, std::uint32_t most,
-                std::uint32_t& value)
+/// Bytes, such as 1.5GiB; makes a plain number of them.
+CLI::Validator sizeWithUnit()
 {
-    std::uint32_t number = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, number);
-    if (failure != std::errc() || stop != end || number < least || number > most)
-        return false;
-    value = number;
-    return true;
-}
-
-bool readBytes(const std::string& text, double& bytes)
-{
-    double value = 0.0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, failure] = std::from_chars(text.data(), end, value);
-    if (failure != std::errc() || !(value > 0.0))
-        return false;
-    const std::string unit(stop, end);
-    const char* const units[] = {"", "KiB", "MiB", "GiB", "TiB"};
-    for (int i = 0; i < 5; ++i)
-        if (unit == units[i])
+    const double KiB = 1024.0;
+    const std::map<std::string, double> units = {
+        {"KiB", KiB}, {"MiB", KiB * KiB}, {"GiB", KiB * KiB * KiB}, {"TiB", KiB * KiB * KiB * KiB}};
+    return CLI::Validator(
+        [units](std::string& text)
         {
-            bytes = std::ldexp(value, 10 * i);
-            return std::isfinite(bytes);
-        }
-    return false;
+            const std::string given = text;
+            try
+            {
+                if (CLI::AsNumberWithUnit(units)(text).empty() &&
+                    examples::between(1.0, 1e15)(text).empty())
+                    return std::string();
+            }
+            catch (const CLI::ValidationError&) // what it says names types
+            {
+            }
+            return "needs a size such as 1.5GiB, 200MiB, 64KiB or 1000000, not '" + given + "'";
+        },
+        std::string());
 }
 
-/// One option with its value. Returns what is wrong, or an empty text.
-std::string set(Command& command, const std::string& option, const std::string& value)
+void declare(examples::CommandLine& line, Command& command)
 {
-    const auto number = [&](std::uint32_t least, std::uint32_t most,
-                            std::uint32_t& result) -> std::string
-    {
-        if (readNumber(value, least, most, result))
-            return {};
-        return option + " needs a whole number from " + std::to_string(least) + " to " +
-               std::to_string(most) + ", not '" + value + "'";
-    };
-    if (option == "--textures")
-    {
-        command.texturesGiven = true;
-        return number(1, MostTextures, command.town.textures);
-    }
-    if (option == "--seed")
-        return number(0, std::numeric_limits<std::uint32_t>::max(), command.town.seed);
-    if (option == "--quality")
-    {
-        std::uint32_t quality = 0;
-        const std::string fault = number(1, 100, quality);
-        command.pictures.quality = int(quality);
-        return fault;
-    }
-    if (option == "--bytes")
-        return readBytes(value, command.pictures.bytes)
-                   ? ""
-                   : "--bytes needs a size such as 1.5GiB, 200MiB, 64KiB or 1000000, not '" +
-                         value + "'";
-    if (option == "--photos" && !value.empty())
-        command.photos.push_back(value);
-    else if (option == "--path" && !value.empty())
-        command.path = value;
-    else if (option == "--out" && !value.empty() && command.file.empty())
-        command.file = value;
-    else
-        return "'" + option + " " + value + "' is no option; see --help";
-    return {};
-}
-
-std::string parse(int argc, char** argv, Command& command)
-{
-    for (int i = 1; i < argc; ++i)
-    {
-        const std::string argument = argv[i];
-        std::string fault;
-        if (argument == "--help" || argument == "-h")
-            command.help = true;
-        else if (argument.rfind("-", 0) == 0)
-            fault = set(command, argument, ++i < argc ? argv[i] : "");
-        else if (command.file.empty())
-            command.file = argument;
-        else
-            fault = "'" + argument + "' is a second file; see --help";
-        if (!fault.empty() || command.help)
-            return fault;
-    }
-    if (!command.texturesGiven && command.pictures.bytes > 0.0)
-        command.town.textures = unsigned(
-            std::min(std::ceil(command.pictures.bytes / BytesPerTexture), double(MostTextures)));
-    return command.file.empty() ? "no file to write is named; see --help" : "";
+    line.add_option("FILE", command.file,
+                    "its ending says the format: .osgb, .osgt, .ive, .obj, .iv")
+        ->type_name("")
+        ->required();
+    CLI::Option* textures = line.addNumber("--textures", command.town.textures, 1u, MostTextures,
+                                           "how many JPEG files; with --bytes one for 550 KiB");
+    line.add_option("--bytes", command.pictures.bytes,
+                    "of all JPEG files together, such as 1.5GiB or 200MiB;\n"
+                    "sizes are chosen for it")
+        ->transform(sizeWithUnit())
+        ->type_name("SIZE");
+    line.addNumber("--quality", command.pictures.quality, 1, 100, "of the JPEG files");
+    line.add_option("--photos", command.photos,
+                    "folder of photographs to cut from; may be repeated; default:\n"
+                    "/usr/share/backgrounds and /usr/share/wallpapers, and where\n"
+                    "there are none, patterns of noise")
+        ->expected(1)
+        ->take_all()
+        ->type_name("DIR");
+    line.add_option("--path", command.path,
+                    "also writes a flight through the streets, as osgviewer -p\nreads it")
+        ->type_name("FILE");
+    line.addNumber("--seed", command.town.seed, 0u, ~0u, "another number gives another town");
+    line.callback(
+        [&command, textures]
+        {
+            if (!*textures && command.pictures.bytes > 0.0)
+                command.town.textures = unsigned(std::min(
+                    std::ceil(command.pictures.bytes / BytesPerTexture), double(MostTextures)));
+        });
 }
 
 /// One line that is written over, where somebody looks.
@@ -273,11 +218,20 @@ void make(Command& command)
 int main(int argc, char** argv)
 {
     Command command;
-    const std::string fault = parse(argc, argv, command);
-    if (!fault.empty())
-        return fail(fault);
-    if (command.help)
-        return std::fputs(Help, stdout) < 0;
+    examples::CommandLine line(
+        "Writes a generated town whose facades, roofs, squares and streets have a photograph each, "
+        "and the\n"
+        "photographs: JPEG files, all different, of 512 to 8192 pixels a side, many of odd sizes, "
+        "some grey,\n"
+        "some progressive; PNG with alpha for fences and trees; a few normal maps, in texture unit "
+        "1. They\n"
+        "are cut from the photographs that are installed: turned, scaled, in other colours. The "
+        "pictures lie\n"
+        "in a folder beside the file, FILE without its ending and _photos. Metres, z is up.",
+        "osgphotocity");
+    declare(line, command);
+    if (const auto status = line.read(argc, argv))
+        return *status;
     try
     {
         make(command);

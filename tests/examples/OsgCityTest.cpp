@@ -218,16 +218,17 @@ TEST_F(OsgCityTest, wrongSwitchesAreNamed)
         EXPECT_EQ(result.exitCode, 1);
         return result.errors;
     };
-    EXPECT_EQ(errorOf({}), "osgcity: no file to write is named; see --help\n");
+    EXPECT_EQ(errorOf({}), "osgcity: FILE is required; see --help\n");
     EXPECT_EQ(errorOf({"--buildings", "-3", "x.osgb"}),
-              "osgcity: --buildings needs a whole number up to 20000, not '-3'\n");
+              "osgcity: --buildings: needs a whole number from 0 to 20000, not '-3'; see --help\n");
     EXPECT_EQ(errorOf({"--trees", "many", "x.osgb"}),
-              "osgcity: --trees needs a whole number up to 100000, not 'many'\n");
+              "osgcity: --trees: needs a whole number from 0 to 100000, not 'many'; see --help\n");
     EXPECT_EQ(errorOf({"--origin", "nan", "x.osgb"}),
-              "osgcity: --origin needs a number from -1e9 to 1e9, not 'nan'\n");
-    EXPECT_EQ(errorOf({"--towers", "3", "x.osgb"}),
-              "osgcity: '--towers 3' is no option; see --help\n");
-    EXPECT_EQ(errorOf({"a.osgb", "b.osgb"}), "osgcity: 'b.osgb' is a second file; see --help\n");
+              "osgcity: --origin: needs a number from -1e+09 to 1e+09, not 'nan'; see --help\n");
+    EXPECT_EQ(errorOf({"--towers", "x.osgb"}),
+              "osgcity: The following argument was not expected: --towers; see --help\n");
+    EXPECT_EQ(errorOf({"a.osgb", "b.osgb"}),
+              "osgcity: The following argument was not expected: b.osgb; see --help\n");
     EXPECT_NE(errorOf({"/no/such/folder/x.osgb"}).find("cannot write"), std::string::npos);
     EXPECT_NE(
         errorOf({"--labels", "/no/such/x.csv", folder.file("x.osgb")}).find("'/no/such/x.csv'"),

@@ -85,11 +85,13 @@ TEST_F(OsgMergeTest, leavesOutWhatIsBrokenAndSaysSo)
 TEST_F(OsgMergeTest, complainsOfWrongOptions)
 {
     EXPECT_EQ(run({"--help"}).exitCode, 0);
-    EXPECT_EQ(run({}).errors, "osgmerge: name at least one program; see --help\n");
-    EXPECT_EQ(run({"--colour"}).errors, "osgmerge: unknown option '--colour'; see --help\n");
-    EXPECT_EQ(run({"-o"}).errors, "osgmerge: -o needs a value; see --help\n");
+    EXPECT_EQ(run({}).errors, "osgmerge: PROGRAM is required; see --help\n");
+    EXPECT_EQ(run({"--colour", _red}).errors,
+              "osgmerge: The following argument was not expected: --colour; see --help\n");
+    EXPECT_EQ(run({"-o"}).errors, "osgmerge: -o: 1 required FILE missing; see --help\n");
     EXPECT_EQ(run({"--limit", "magic=3"}).errors,
-              "osgmerge: --limit: 'magic=3' is not a value for it\n");
+              "osgmerge: --limit: 'magic' is none of varyings, samplers, units, uniforms, "
+              "attributes; see --help\n");
 }
 
 TEST_F(OsgMergeTest, keepsToLimits)

@@ -270,14 +270,15 @@ TEST_F(OsgPhotoCityTest, wrongSwitchesAndWhatCannotBeReachedAreNamed)
         return result.errors;
     };
     fs::create_directory(folder.file("empty"));
-    EXPECT_EQ(errorOf({}), "osgphotocity: no file to write is named; see --help\n");
-    EXPECT_EQ(errorOf({"--textures", "0", "x.osgb"}),
-              "osgphotocity: --textures needs a whole number from 1 to 50000, not '0'\n");
+    EXPECT_EQ(errorOf({}), "osgphotocity: FILE is required; see --help\n");
+    EXPECT_EQ(
+        errorOf({"--textures", "0", "x.osgb"}),
+        "osgphotocity: --textures: needs a whole number from 1 to 50000, not '0'; see --help\n");
     EXPECT_EQ(errorOf({"--bytes", "much", "x.osgb"}),
-              "osgphotocity: --bytes needs a size such as 1.5GiB, 200MiB, 64KiB or 1000000, not "
-              "'much'\n");
+              "osgphotocity: --bytes: needs a size such as 1.5GiB, 200MiB, 64KiB or 1000000, not "
+              "'much'; see --help\n");
     EXPECT_EQ(errorOf({"a.osgb", "b.osgb"}),
-              "osgphotocity: 'b.osgb' is a second file; see --help\n");
+              "osgphotocity: The following argument was not expected: b.osgb; see --help\n");
     EXPECT_EQ(errorOf({"/no/such/folder/x.osgb"}),
               "osgphotocity: cannot write '/no/such/folder/x.osgb': no such folder\n");
     EXPECT_NE(errorOf({folder.file("x.nothing")}).find("no plugin"), std::string::npos);

@@ -204,14 +204,15 @@ TEST_F(OsgRefineryTest, wrongSwitchesAreNamed)
         EXPECT_EQ(result.exitCode, 1);
         return result.errors;
     };
-    EXPECT_EQ(errorOf({}), "osgrefinery: no file to write is named; see --help\n");
-    EXPECT_EQ(errorOf({"--objects", "-3", "x.osgb"}),
-              "osgrefinery: --objects needs a whole number up to 2000000, not '-3'\n");
+    EXPECT_EQ(errorOf({}), "osgrefinery: FILE is required; see --help\n");
+    EXPECT_EQ(
+        errorOf({"--objects", "-3", "x.osgb"}),
+        "osgrefinery: --objects: needs a whole number from 0 to 2000000, not '-3'; see --help\n");
     EXPECT_EQ(errorOf({"--objects", "400000", "x.iv"}),
               "osgrefinery: 400000 objects are too many one by one; at most 300000, or --as batch "
               "in a .osgb\n");
     EXPECT_EQ(errorOf({"--as", "cubes", "x.osgb"}),
-              "osgrefinery: '--as cubes' is no option; see --help\n");
+              "osgrefinery: --as: needs one of batch|drawables, not 'cubes'; see --help\n");
     EXPECT_NE(errorOf({"--objects", "10", "/no/such/folder/x.iv"}).find("cannot write"),
               std::string::npos);
 }
