@@ -114,17 +114,7 @@ public:
         return outcome;
     }
 
-    std::string getRenderer()
-    {
-        osgViewer::Viewer::Contexts contexts;
-        _viewer.getViewer().getContexts(contexts);
-        if (contexts.empty() || !contexts.front()->makeCurrent())
-            return "unknown renderer";
-        const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        const std::string renderer = name ? name : "unknown renderer";
-        contexts.front()->releaseContext();
-        return renderer;
-    }
+    std::string getRenderer() { return _viewer.getRenderer(); }
 
 private:
     static support::HeadlessSettings makeSettings()

@@ -23,16 +23,4 @@ osg::Image& SweepViewer::clear(osg::Camera& camera)
     return picture;
 }
 
-std::string SweepViewer::getRenderer()
-{
-    osgViewer::Viewer::Contexts contexts;
-    _viewer.getViewer().getContexts(contexts);
-    if (contexts.empty() || !contexts.front()->makeCurrent())
-        return "unknown renderer";
-    const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    const std::string renderer = name ? name : "unknown renderer";
-    contexts.front()->releaseContext();
-    return renderer;
-}
-
 } // namespace precision

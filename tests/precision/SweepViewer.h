@@ -26,7 +26,7 @@ public:
     void draw(osg::Camera& camera) { _viewer.render(&camera, {}, 1, 1); }
 
     /// As GL names it.
-    std::string getRenderer();
+    std::string getRenderer() { return _viewer.getRenderer(); }
 
 private:
     support::HeadlessViewer _viewer;

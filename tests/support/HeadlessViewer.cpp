@@ -258,6 +258,18 @@ const std::vector<std::string>& HeadlessViewer::getGLErrors() const
     return _state->glErrors;
 }
 
+std::string HeadlessViewer::getRenderer()
+{
+    osgViewer::Viewer::Contexts contexts;
+    getViewer().getContexts(contexts);
+    if (contexts.empty() || !contexts.front()->makeCurrent())
+        return "unknown renderer";
+    const auto* const name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    const std::string renderer = name ? name : "unknown renderer";
+    contexts.front()->releaseContext();
+    return renderer;
+}
+
 osgViewer::Viewer& HeadlessViewer::getViewer()
 {
     return _state->viewer;

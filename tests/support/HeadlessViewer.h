@@ -81,6 +81,9 @@ public:
     /// For what else a test needs: lights, the camera's StateSet, statistics.
     osgViewer::Viewer& getViewer();
 
+    /// As GL names it.
+    std::string getRenderer();
+
 private:
     struct State;
     std::unique_ptr<State> _state;
