@@ -229,7 +229,7 @@ std::uint32_t MapPass::actionsOf(const Occluder& occluder) const
     const std::uint32_t all = (1u << NumMapActions) - 1u, own = 1u << unsigned(_settings.mapAction);
     if (!occluder.isMany)
         return (1u << unsigned(occluder.action)) & all;
-    const std::uint32_t actions = _scene.records.getActions();
+    const std::uint32_t actions = _words->actions;
     return (actions | (actions >> (NumMapActions + 1) & 1u ? own : 0u)) & all;
 }
 
@@ -251,7 +251,7 @@ void MapPass::drawLayers(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
     _targets = _scene.targets.acquire(
         _contextID,
         {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], int(_actions.size()), next});
-    _records = _scene.records.upload(state);
+    _records = _scene.records.upload(state, _words);
     osgMultiRender::FramebufferVisit visit(state);
     for (std::size_t layer = 0; layer < _actions.size(); ++layer)
         drawLayer(renderInfo, frame, int(layer), false);

@@ -75,11 +75,11 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
                 _occluders[drawnLeaves[leaf]] = {found[leaf].number,
                                                  found[leaf].action.value_or(_settings.mapAction),
                                                  found[leaf].sides};
-        _scene.activate(group);
+        _words = _scene.activate(group);
         if (i == 0) // those that were found just now, too
             _scene.prepareValued(visitor, _labels);
         _scene.takeRanges(_labels);
-        if (_scene.features.getModifiedCount() == count)
+        if (_scene.features.getModifiedCount() == count && _words->features == count)
             break;
     }
     addGroup(visitor.getProjectionMatrix(), begin);

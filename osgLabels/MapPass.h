@@ -111,7 +111,8 @@ private:
     std::size_t _refused = 0;
     osg::ref_ptr<MapTargets> _targets;
     osg::ref_ptr<MapQuads> _quads;
-    osg::ref_ptr<BufferTexture> _records; ///< Null where there are none.
+    std::shared_ptr<const MapWords> _words; ///< Of what has records, as it was in cull.
+    osg::ref_ptr<BufferTexture> _records;
 };
 
 /// Bits of SurfaceKey::output that are the map's.

@@ -200,7 +200,7 @@ void MapScene::addValued(MapFeatures::Valued valued)
     _hasValues = true;
 }
 
-void MapScene::activate(osg::Group& group)
+std::shared_ptr<const MapWords> MapScene::activate(osg::Group& group)
 {
     std::lock_guard<std::mutex> lock(_cullMutex);
     if (!_isActive)
@@ -208,7 +208,7 @@ void MapScene::activate(osg::Group& group)
     else
         features.sweep(group, sweptPerFrame);
     _isActive = true;
-    records.update(group);
+    return records.update(group);
 }
 
 void MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
@@ -257,6 +257,7 @@ void MapScene::prepareValued(osgUtil::CullVisitor& visitor, std::vector<EyeLabel
         if (!each.path.getRefNodePath(path))
         {
             texts.remove(each.label);
+            features.forget(each.label.part);
             each.isGone = true;
             continue;
         }

@@ -40,8 +40,8 @@ public:
     void prepareValued(osgUtil::CullVisitor& visitor, std::vector<EyeLabel>& labels);
     /// Numbers of the labels' own features, as they are now.
     void takeRanges(std::vector<EyeLabel>& labels);
-    /// Finds what stands before labels; from the first label in view on.
-    void activate(osg::Group& group);
+    /// Finds what stands before labels, from the first label in view on; returns that of records.
+    std::shared_ptr<const MapWords> activate(osg::Group& group);
 
     /// The labels of the file that the settings name; null without one.
     osg::Node* getFileLabels() const { return _fileLabels.get(); }

@@ -92,8 +92,8 @@ TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
     FeatureTree tree;
     const auto a = tree.add(FeatureTree::Scene, 1, "Building");
     const auto b = tree.add(FeatureTree::Scene, 2, "Building");
-    tree.setLabelled(a);
-    tree.setLabelled(b);
+    tree.addLabel(a);
+    tree.addLabel(b);
     EXPECT_NE(tree.getNumber(a), tree.getNumber(b));
     EXPECT_TRUE(isIn(tree.getNumber(a), tree.getRangeOfPart(a)));
     EXPECT_FALSE(isIn(tree.getNumber(b), tree.getRangeOfPart(a)));
@@ -127,4 +127,77 @@ TEST(FeatureTree, aKeyThatComesAgainWithAnotherNameIsAnotherPart)
     EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
     EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "barn"), second);
     EXPECT_TRUE(isIn(tree.getNumber(first), tree.getRange(house)));
+}
+
+TEST(FeatureTree, aPartStaysWhileItIsHeldOrSomethingInItIs)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "house");
+    const auto roof = tree.add(house, 2, "roof");
+    tree.hold(house);
+    tree.hold(roof);
+    tree.hold(roof);
+    tree.release(house);
+    tree.release(roof);
+    EXPECT_EQ(tree.getPartCount(), 3u);
+    EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "house"), house);
+    tree.release(roof);
+    EXPECT_EQ(tree.getPartCount(), 1u) << "the scene";
+    EXPECT_EQ(tree.getNameCount(), 0u);
+}
+
+TEST(FeatureTree, aPartThatIsGoneIsNoFeatureAnyMore)
+{
+    FeatureTree tree;
+    const auto name = tree.use("house");
+    std::vector<FeatureTree::Part> houses;
+    for (std::uint64_t key = 1; key <= 3; ++key)
+        tree.hold(houses.emplace_back(tree.add(FeatureTree::Scene, key, "house")));
+    const auto shed = tree.add(houses[0], 9, "shed");
+    tree.hold(shed);
+    tree.release(houses[0]); // the shed keeps it
+    tree.release(houses[1]);
+    EXPECT_TRUE(isIn(tree.getNumber(houses[2]), tree.getRange(name)));
+    EXPECT_TRUE(isIn(tree.getNumber(shed), tree.getRange(name)));
+    tree.release(shed);
+    tree.release(houses[2]);
+    EXPECT_EQ(tree.getPartCount(), 1u);
+    EXPECT_EQ(tree.getNameCount(), 1u) << "the label's";
+    tree.unuse(name);
+    EXPECT_EQ(tree.getNameCount(), 0u);
+    EXPECT_FALSE(tree.isUsed("house"));
+    const auto again = tree.add(FeatureTree::Scene, 1, "house");
+    EXPECT_EQ(tree.getNumber(again), FeatureTree::Foreign) << "no label names it";
+}
+
+TEST(FeatureTree, numbersThatAPartLeavesAreNotThoseOfAnother)
+{
+    FeatureTree tree;
+    const auto house = tree.use("house"), barn = tree.use("barn");
+    const auto first = tree.add(FeatureTree::Scene, 1, "house");
+    const auto second = tree.add(FeatureTree::Scene, 2, "barn");
+    tree.hold(first);
+    tree.hold(second);
+    const auto before = tree.getNumber(second);
+    tree.release(first);
+    EXPECT_EQ(tree.getNumber(second), before);
+    const auto third = tree.add(FeatureTree::Scene, 3, "");
+    EXPECT_EQ(tree.getNumber(third), FeatureTree::Foreign);
+    EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
+    EXPECT_TRUE(isIn(tree.getNumber(second), tree.getRange(barn)));
+}
+
+TEST(FeatureTree, labelsOfAPartEndWithTheLastOne)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "");
+    tree.hold(house);
+    tree.addLabel(house);
+    tree.addLabel(house);
+    tree.removeLabel(house);
+    EXPECT_NE(tree.getNumber(house), FeatureTree::Foreign);
+    tree.removeLabel(house);
+    EXPECT_EQ(tree.getNumber(house), FeatureTree::Foreign);
+    tree.release(house);
+    EXPECT_EQ(tree.getPartCount(), 1u);
 }
