@@ -211,9 +211,16 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     add(looksOf(_settings.styles));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
                        Over);
-    const osgMultiRender::PassState pushed(state, *pass);
-    state.apply();
-    _quads->draw(renderInfo);
+    std::vector<std::unique_ptr<osgMultiRender::PassState>> limits;
+    for (const osg::ref_ptr<osg::StateSet>& each : _limits)
+        limits.push_back(std::make_unique<osgMultiRender::PassState>(state, *each));
+    {
+        const osgMultiRender::PassState pushed(state, *pass);
+        state.apply();
+        _quads->draw(renderInfo);
+    }
+    while (!limits.empty()) // the innermost first
+        limits.pop_back();
 }
 
 } // namespace osgLabels

@@ -37,6 +37,7 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
     const osg::Viewport* ofStage = visitor.getCurrentRenderBin()->getStage()->getViewport();
     if (visitor.getViewport() != ofStage)
         _ownViewport = visitor.getViewport();
+    takeLimits(visitor.getCurrentStateGraph());
     std::vector<MapFeatures::Drawn> drawn;
     std::vector<const osgUtil::RenderLeaf*> drawnLeaves;
     const auto addGroup = [&](const osg::RefMatrix* projection, std::size_t begin)
@@ -83,6 +84,28 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
             break;
     }
     addGroup(visitor.getProjectionMatrix(), begin);
+}
+
+/// The masks of the eyes of an anaglyph are set while it is drawn: these are the view's own.
+void MapPass::takeLimits(const osgUtil::StateGraph* graph)
+{
+    _limits.clear();
+    for (; graph; graph = graph->_parent)
+    {
+        const osg::StateSet* from = graph->getStateSet();
+        if (!from)
+            continue;
+        osg::ref_ptr<osg::StateSet> limits = new osg::StateSet;
+        for (const auto type : {osg::StateAttribute::COLORMASK, osg::StateAttribute::STENCIL,
+                                osg::StateAttribute::SCISSOR})
+            if (const auto* pair = from->getAttributePair(type))
+                limits->setAttribute(pair->first, pair->second);
+        for (const GLenum mode : {GL_STENCIL_TEST, GL_SCISSOR_TEST})
+            if (const auto value = from->getMode(mode); value != osg::StateAttribute::INHERIT)
+                limits->setMode(mode, value);
+        if (!limits->getAttributeList().empty() || !limits->getModeList().empty())
+            _limits.insert(_limits.begin(), limits);
+    }
 }
 
 bool MapPass::addMany(const osgUtil::RenderLeaf& leaf)

@@ -84,6 +84,7 @@ private:
     void upload(osg::State& state);
     osg::ref_ptr<osg::StateSet> makePass(osg::State& state, bool isTest);
     void findStates(osg::RenderInfo& renderInfo);
+    void takeLimits(const osgUtil::StateGraph* graph);
     MapAction actionAt(osg::State& state, const PlacedLabel& label, int x, int y);
 
     LabelResources& _resources;
@@ -92,6 +93,8 @@ private:
     osg::ref_ptr<MapMemory> _memory;
     osg::Matrixd _groupToEye;
     osg::ref_ptr<const osg::Viewport> _ownViewport; ///< Null: that of the stage.
+    /// What the StateSets from the view to the group say of where is drawn, the outermost first.
+    std::vector<osg::ref_ptr<osg::StateSet>> _limits;
     double _time = 0.0;
     unsigned int _contextID = 0;
     int _language = 330;
