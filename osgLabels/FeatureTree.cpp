@@ -161,18 +161,23 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
     {
         std::vector<Part> parts;
         std::uint32_t number;
+        std::uint32_t depth; ///< Of the next feature inside.
         bool isFeature;
         std::size_t part = 0, child = 0;
     };
     std::uint32_t next = First;
+    auto nesting = std::make_shared<Nesting>();
     std::vector<bool> isDone(_nodes.size());
     std::vector<Step> path;
     const auto enter = [&](Part part, std::uint32_t around)
     {
         const Node& node = _nodes[part];
         const bool isNew = isFeature(node), hasName = _named[node.name].uses > 0;
+        const std::uint32_t depth = path.empty() ? 0 : path.back().depth;
+        if (isNew)
+            nesting->steps.push_back({around, next, depth});
         Step step{isNew && hasName ? named[node.name] : std::vector<Part>{part},
-                  isNew ? next++ : around, isNew};
+                  isNew ? next++ : around, depth + isNew, isNew};
         for (const Part each : step.parts)
         {
             isDone[each] = true;
@@ -196,6 +201,8 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
                 enter(child, step.number);
             continue;
         }
+        if (step.isFeature)
+            nesting->steps[step.number - First].last = next - 1;
         for (const Part each : step.parts)
             if (step.isFeature)
             {
@@ -206,6 +213,21 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
             }
         path.pop_back();
     }
+    _nesting = nesting;
+}
+
+FeatureTree::Range FeatureTree::Nesting::at(std::uint32_t number, std::uint32_t depth) const
+{
+    if (number < First || number - First >= steps.size() || steps[number - First].depth < depth)
+        return {number, number};
+    while (steps[number - First].depth > depth)
+        number = steps[number - First].around;
+    return {number, steps[number - First].last};
+}
+
+std::uint32_t FeatureTree::Nesting::depthOf(std::uint32_t number) const
+{
+    return number < First || number - First >= steps.size() ? 0 : steps[number - First].depth;
 }
 
 void FeatureTree::update()
@@ -233,6 +255,12 @@ FeatureTree::Range FeatureTree::getRange(Name name)
 {
     update();
     return _named[name].range;
+}
+
+std::shared_ptr<const FeatureTree::Nesting> FeatureTree::getNesting()
+{
+    update();
+    return _nesting;
 }
 
 FeatureTree::Range FeatureTree::getRangeOfPart(Part part)

@@ -4,6 +4,7 @@
 #include <osgLabels/Export.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -34,6 +35,24 @@ public:
         std::uint32_t first = 1, last = 0;
     };
 
+    /// How features lie in each other, by number.
+    struct Nesting
+    {
+        struct Step
+        {
+            std::uint32_t around; ///< Number of the feature that it lies in, or Foreign.
+            std::uint32_t last;   ///< Of what is inside.
+            std::uint32_t depth;  ///< 0 in no other.
+        };
+        std::vector<Step> steps; ///< From First on.
+
+        /// Of the feature of that depth that a number lies in or is; the number alone where there
+        /// is none.
+        Range at(std::uint32_t number, std::uint32_t depth) const;
+        /// Of the feature with a number.
+        std::uint32_t depthOf(std::uint32_t number) const;
+    };
+
     /// The part with this key, made if it is new. `key` tells parts of the scene apart; one that
     /// had another name is another part's from now on. It stays until somebody has held it.
     Part add(Part parent, std::uint64_t key, const std::string& name);
@@ -55,6 +74,8 @@ public:
     /// Of a feature and what is inside; several parts of one name are one feature.
     Range getRange(Name name);
     Range getRangeOfPart(Part part);
+    /// As numbers are now; not changed later.
+    std::shared_ptr<const Nesting> getNesting();
 
     /// Grows when numbers that were given have changed.
     unsigned int getModifiedCount() const { return _modifiedCount; }
@@ -98,6 +119,7 @@ private:
     std::unordered_map<std::string, Name> _names;
     std::vector<Named> _named{1}; ///< By name.
     std::vector<Name> _freeNames;
+    std::shared_ptr<const Nesting> _nesting = std::make_shared<Nesting>();
     bool _isCurrent = true;
     unsigned int _modifiedCount = 0;
 };

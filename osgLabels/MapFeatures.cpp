@@ -300,6 +300,12 @@ FeatureTree::Range MapFeatures::getRangeOfPart(FeatureTree::Part part)
     return _tree.getRangeOfPart(part);
 }
 
+std::shared_ptr<const FeatureTree::Nesting> MapFeatures::getNesting()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.getNesting();
+}
+
 unsigned int MapFeatures::getModifiedCount()
 {
     std::lock_guard<std::mutex> lock(_mutex);

@@ -71,6 +71,7 @@ public:
     void forget(FeatureTree::Part part);
     FeatureTree::Range getRange(FeatureTree::Name name);
     FeatureTree::Range getRangeOfPart(FeatureTree::Part part);
+    std::shared_ptr<const FeatureTree::Nesting> getNesting();
     /// Grows when numbers that were given have changed.
     unsigned int getModifiedCount();
     /// Named parts of the scene that are kept.

@@ -181,6 +181,7 @@ void MapScene::releaseGLObjects(osg::State* state)
     quads.releaseGLObjects(state);
     programs.releaseGLObjects(state);
     records.releaseGLObjects(state);
+    nests.releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_mutex);
     for (auto each = _memories.begin(); each != _memories.end();)
     {

@@ -4,6 +4,7 @@
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/MapFeatures.h>
 #include <osgLabels/MapMemory.h>
+#include <osgLabels/MapNests.h>
 #include <osgLabels/MapPlacement.h>
 #include <osgLabels/MapPrograms.h>
 #include <osgLabels/MapQuads.h>
@@ -56,6 +57,7 @@ public:
     MapFeatures features;
     MapTexts texts;
     MapRecords records;
+    MapNests nests;
     LabelBuffers buffers;
     osgMultiRender::TargetPool<MapTargets> targets;
     osgMultiRender::TargetPool<MapQuads> quads;

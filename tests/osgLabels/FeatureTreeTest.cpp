@@ -201,3 +201,36 @@ TEST(FeatureTree, labelsOfAPartEndWithTheLastOne)
     tree.release(house);
     EXPECT_EQ(tree.getPartCount(), 1u);
 }
+
+TEST(FeatureTree, nestingSaysWhatIsAroundANumber)
+{
+    FeatureTree tree;
+    const auto campus = tree.add(FeatureTree::Scene, 1, "campus");
+    const auto house = tree.add(campus, 2, "house");
+    const auto wing = tree.add(house, 3, "wing");
+    const auto barn = tree.add(FeatureTree::Scene, 4, "barn");
+    std::vector<FeatureTree::Range> ranges;
+    for (const char* name : {"campus", "house", "wing", "barn"})
+        tree.use(name);
+    for (const char* name : {"campus", "house", "wing"})
+        ranges.push_back(tree.getRange(tree.use(name)));
+    const auto nesting = tree.getNesting();
+    for (std::uint32_t depth = 0; depth < 3; ++depth)
+    {
+        const auto around = nesting->at(tree.getNumber(wing), depth);
+        EXPECT_EQ(around.first, ranges[depth].first);
+        EXPECT_EQ(around.last, ranges[depth].last);
+        EXPECT_EQ(nesting->depthOf(ranges[depth].first), depth);
+    }
+    // What has no feature of that depth around it is alone.
+    for (const std::uint32_t number : {0u, FeatureTree::Foreign, tree.getNumber(campus), 99u})
+    {
+        EXPECT_EQ(nesting->at(number, 1).first, number);
+        EXPECT_EQ(nesting->at(number, 1).last, number);
+    }
+    EXPECT_EQ(nesting->at(tree.getNumber(barn), 0).last, tree.getNumber(barn));
+    tree.unuse(tree.use("new"));
+    tree.addLabel(barn);
+    tree.getNumber(barn);
+    EXPECT_EQ(nesting->at(tree.getNumber(wing), 0).first, ranges[0].first) << "stays as it was";
+}
