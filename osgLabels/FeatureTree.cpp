@@ -6,62 +6,151 @@
 namespace osgLabels
 {
 
-FeatureTree::Part FeatureTree::add(Part parent, std::uint64_t key, const std::string& name)
+FeatureTree::Name FeatureTree::nameOf(const std::string& text)
 {
-    const auto [found, isNew] = _byKey.emplace(key, Part(_nodes.size()));
+    const auto [found, isNew] = _names.emplace(text, None);
     if (!isNew)
+        return found->second;
+    if (_freeNames.empty())
     {
-        const auto known = name.empty() ? _names.end() : _names.find(name);
-        const Name same = known == _names.end() ? None : known->second;
-        if (_nodes[found->second].name == same && (same || name.empty()))
-            return found->second;
-        found->second = Part(_nodes.size());
+        found->second = Name(_named.size());
+        _named.emplace_back();
     }
-    Node node;
-    node.parent = parent;
-    if (!name.empty())
+    else
     {
-        node.name = _names.emplace(name, Name(_names.size() + 1)).first->second;
-        _isUsed.resize(_names.size() + 1);
-        _ranges.resize(_names.size() + 1);
+        found->second = _freeNames.back();
+        _freeNames.pop_back();
     }
-    const bool isFeature = node.name && _isUsed[node.name];
-    const std::uint32_t around = _nodes[parent].number;
-    node.number = node.last = around;
-    _nodes.push_back(node);
-    _nodes[parent].inside.push_back(found->second);
-    if (isFeature)
-        _isCurrent = false;
+    _named[found->second].text = &found->first;
     return found->second;
 }
 
-void FeatureTree::setLabelled(Part part)
+/// Where neither a part nor a label has it.
+void FeatureTree::forget(Name name)
 {
-    _isCurrent = _isCurrent && _nodes[part].isLabelled;
-    _nodes[part].isLabelled = true;
+    Named& named = _named[name];
+    if (!name || named.parts || named.uses)
+        return;
+    _names.erase(_names.find(*named.text));
+    named = {};
+    _freeNames.push_back(name);
+}
+
+FeatureTree::Part FeatureTree::add(Part parent, std::uint64_t key, const std::string& name)
+{
+    if (const auto known = _byKey.find(key); known != _byKey.end())
+    {
+        const Name same = _nodes[known->second].name;
+        if (same ? *_named[same].text == name : name.empty())
+            return known->second;
+    }
+    Part part = Part(_nodes.size());
+    if (_freeParts.empty())
+        _nodes.emplace_back();
+    else
+    {
+        part = _freeParts.back();
+        _freeParts.pop_back();
+    }
+    _byKey[key] = part;
+    Node& node = _nodes[part];
+    node.key = key;
+    node.parent = parent;
+    node.place = std::uint32_t(_nodes[parent].inside.size());
+    node.name = name.empty() ? None : nameOf(name);
+    node.number = node.last = _nodes[parent].number;
+    _nodes[parent].inside.push_back(part);
+    if (node.name)
+        ++_named[node.name].parts;
+    if (isFeature(node))
+        _isCurrent = false;
+    return part;
+}
+
+void FeatureTree::hold(Part part)
+{
+    ++_nodes[part].holds;
+}
+
+void FeatureTree::release(Part part)
+{
+    --_nodes[part].holds;
+    // Those around it stayed for its sake only.
+    while (part != Scene && !_nodes[part].holds && _nodes[part].inside.empty())
+    {
+        const Part around = _nodes[part].parent;
+        free(part);
+        part = around;
+    }
+}
+
+/// The numbers of others stay: ranges have gaps then.
+void FeatureTree::free(Part part)
+{
+    Node& node = _nodes[part];
+    if (const auto known = _byKey.find(node.key); known != _byKey.end() && known->second == part)
+        _byKey.erase(known);
+    std::vector<Part>& beside = _nodes[node.parent].inside;
+    beside[node.place] = beside.back();
+    _nodes[beside.back()].place = node.place;
+    beside.pop_back();
+    if (node.name)
+    {
+        --_named[node.name].parts;
+        forget(node.name);
+    }
+    node = {};
+    _freeParts.push_back(part);
+}
+
+void FeatureTree::addLabel(Part part)
+{
+    hold(part);
+    if (_nodes[part].labels++ == 0)
+        _isCurrent = false;
+}
+
+void FeatureTree::removeLabel(Part part)
+{
+    if (--_nodes[part].labels == 0)
+        _isCurrent = false;
+    release(part);
 }
 
 FeatureTree::Name FeatureTree::use(const std::string& name)
 {
     if (name.empty())
         return None;
-    const Name number = _names.emplace(name, Name(_names.size() + 1)).first->second;
-    _isUsed.resize(_names.size() + 1);
-    _ranges.resize(_names.size() + 1);
-    _isCurrent = _isCurrent && _isUsed[number];
-    _isUsed[number] = true;
+    const Name number = nameOf(name);
+    // Even where no part has it: what adds only parts whose names are used takes note.
+    if (_named[number].uses++ == 0)
+        _isCurrent = false;
     return number;
+}
+
+void FeatureTree::unuse(Name name)
+{
+    if (!name)
+        return;
+    Named& named = _named[name];
+    if (--named.uses == 0)
+    {
+        named.range = {};
+        if (named.parts)
+            _isCurrent = false;
+    }
+    forget(name);
 }
 
 bool FeatureTree::isUsed(const std::string& name) const
 {
     const auto found = _names.find(name);
-    return found != _names.end() && _isUsed[found->second];
+    return found != _names.end() && _named[found->second].uses;
 }
 
 bool FeatureTree::isFeature(const Node& node) const
 {
-    return node.isLabelled || (node.name && _isUsed[node.name]);
+    return node.labels || _named[node.name].uses;
 }
 
 /// All parts of one name are one feature: what lies in any of them gets numbers behind its own.
@@ -72,18 +161,23 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
     {
         std::vector<Part> parts;
         std::uint32_t number;
+        std::uint32_t depth; ///< Of the next feature inside.
         bool isFeature;
         std::size_t part = 0, child = 0;
     };
     std::uint32_t next = First;
+    auto nesting = std::make_shared<Nesting>();
     std::vector<bool> isDone(_nodes.size());
     std::vector<Step> path;
     const auto enter = [&](Part part, std::uint32_t around)
     {
         const Node& node = _nodes[part];
-        const bool isNew = isFeature(node), hasName = node.name && _isUsed[node.name];
+        const bool isNew = isFeature(node), hasName = _named[node.name].uses > 0;
+        const std::uint32_t depth = path.empty() ? 0 : path.back().depth;
+        if (isNew)
+            nesting->steps.push_back({around, next, depth});
         Step step{isNew && hasName ? named[node.name] : std::vector<Part>{part},
-                  isNew ? next++ : around, isNew};
+                  isNew ? next++ : around, depth + isNew, isNew};
         for (const Part each : step.parts)
         {
             isDone[each] = true;
@@ -107,16 +201,33 @@ void FeatureTree::number(const std::vector<std::vector<Part>>& named)
                 enter(child, step.number);
             continue;
         }
+        if (step.isFeature)
+            nesting->steps[step.number - First].last = next - 1;
         for (const Part each : step.parts)
             if (step.isFeature)
             {
                 Node& node = _nodes[each];
                 node.last = next - 1;
-                if (node.name && _isUsed[node.name])
-                    _ranges[node.name] = {node.number, node.last};
+                if (_named[node.name].uses)
+                    _named[node.name].range = {node.number, node.last};
             }
         path.pop_back();
     }
+    _nesting = nesting;
+}
+
+FeatureTree::Range FeatureTree::Nesting::at(std::uint32_t number, std::uint32_t depth) const
+{
+    if (number < First || number - First >= steps.size() || steps[number - First].depth < depth)
+        return {number, number};
+    while (steps[number - First].depth > depth)
+        number = steps[number - First].around;
+    return {number, steps[number - First].last};
+}
+
+std::uint32_t FeatureTree::Nesting::depthOf(std::uint32_t number) const
+{
+    return number < First || number - First >= steps.size() ? 0 : steps[number - First].depth;
 }
 
 void FeatureTree::update()
@@ -125,10 +236,11 @@ void FeatureTree::update()
         return;
     _isCurrent = true;
     ++_modifiedCount;
-    std::fill(_ranges.begin(), _ranges.end(), Range{});
-    std::vector<std::vector<Part>> named(_isUsed.size());
+    std::vector<std::vector<Part>> named(_named.size());
+    for (Named& each : _named)
+        each.range = {};
     for (Part part = 0; part < _nodes.size(); ++part)
-        if (const Name name = _nodes[part].name; name && _isUsed[name])
+        if (const Name name = _nodes[part].name; _named[name].uses)
             named[name].push_back(part);
     number(named);
 }
@@ -142,7 +254,13 @@ std::uint32_t FeatureTree::getNumber(Part part)
 FeatureTree::Range FeatureTree::getRange(Name name)
 {
     update();
-    return name ? _ranges[name] : Range{};
+    return _named[name].range;
+}
+
+std::shared_ptr<const FeatureTree::Nesting> FeatureTree::getNesting()
+{
+    update();
+    return _nesting;
 }
 
 FeatureTree::Range FeatureTree::getRangeOfPart(Part part)

@@ -225,6 +225,8 @@ void LabelCollector::removeObject(std::uint32_t object)
     _objects[object] = {};
     _retiredObjects.add(object, _shared->frames);
     Label& label = _labels[identifier];
+    if (_lost)
+        _lost(label.text);
     if (--label.objects)
     {
         if (label.object == object)

@@ -62,6 +62,9 @@ public:
                    std::shared_ptr<Shared> shared = std::make_shared<Shared>(),
                    StyleOf styleOf = {});
     ~LabelCollector();
+    /// Before anything is collected: for each object that goes, the text that its path had, under
+    /// the collector's lock.
+    void setLost(std::function<void(const std::string& text)> lost) { _lost = std::move(lost); }
     LabelCollector(const LabelCollector&) = delete;
     LabelCollector& operator=(const LabelCollector&) = delete;
 
@@ -175,6 +178,7 @@ private:
     const Encode _encode;
     const StyleOf _styleOf;
     const std::shared_ptr<Shared> _shared;
+    std::function<void(const std::string& text)> _lost;
 
     mutable std::mutex _mutex;
     std::unordered_map<const osg::Drawable*, std::size_t> _byDrawable;

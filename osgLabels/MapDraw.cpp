@@ -66,7 +66,8 @@ void MapPass::upload(osg::State& state)
         words.push_back({float(each.center.x()), float(each.center.y()), float(each.em),
                          label.width, float(each.anchor.x()), float(each.anchor.y()),
                          float(each.distance), -1.0f, label.identifier, label.own.first,
-                         label.own.last, label.style});
+                         label.own.last | nextOf(label.own) << MapQuads::NextShift,
+                         label.style});
     }
     if (_settings.declutter)
         for (const std::uint32_t index : _order)
@@ -164,7 +165,7 @@ osg::ref_ptr<osg::StateSet> MapPass::makePass(osg::State& state, bool isTest)
     for (std::size_t i = 0; i < _actions.size(); ++i)
         actions[i] = int(_actions[i]);
     add(new osg::Uniform("osgLabels_actions", actions[0], actions[1], actions[2], actions[3]));
-    add(new osg::Uniform("osgLabels_isParallel", int(_isParallel)));
+    add(new osg::Uniform("osgLabels_isByDepth", int(_isByDepth)));
     add(new osg::Uniform("osgLabels_isBack", int(_settings.mapDepth == MapDepth::Back)));
     add(new osg::Uniform("osgLabels_pad",
                          osg::Vec2(float(LabelSettings::MapPadX), float(LabelSettings::MapPadY))));
@@ -211,9 +212,16 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     add(looksOf(_settings.styles));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
                        Over);
-    const osgMultiRender::PassState pushed(state, *pass);
-    state.apply();
-    _quads->draw(renderInfo);
+    std::vector<std::unique_ptr<osgMultiRender::PassState>> limits;
+    for (const osg::ref_ptr<osg::StateSet>& each : _limits)
+        limits.push_back(std::make_unique<osgMultiRender::PassState>(state, *each));
+    {
+        const osgMultiRender::PassState pushed(state, *pass);
+        state.apply();
+        _quads->draw(renderInfo);
+    }
+    while (!limits.empty()) // the innermost first
+        limits.pop_back();
 }
 
 } // namespace osgLabels

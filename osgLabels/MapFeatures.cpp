@@ -26,6 +26,12 @@ bool hasLabel(const osg::Node& node, std::string& text)
     return node.getUserDataContainer() && node.getUserValue(labelValue, text) && !text.empty();
 }
 
+bool isAlive(const osg::ObserverNodePath& path)
+{
+    osg::RefNodePath nodes;
+    return path.getRefNodePath(nodes);
+}
+
 /// In the coordinates of `node`: the middle of the upper side of its box in those of the path's
 /// first node.
 osg::Vec3d topOf(const osg::NodePath& path)
@@ -52,6 +58,8 @@ MapFeatures::MapFeatures(MapClasses classes, FoundValued found)
           [this](const osg::NodePath& path) { return kindOf(path); },
           [](const std::string&) { return LabelTable::Codes(); })
 {
+    _collector.setLost([this](const std::string& text)
+                       { loseKind(std::uint32_t(std::stoul(text))); });
 }
 
 void MapFeatures::collect(const osg::Group& group)
@@ -75,12 +83,10 @@ FeatureTree::Part MapFeatures::partOf(const osg::NodePath& path)
         part = _tree.add(part, hashOf(path, depth + 1), isNamed ? node.getName() : std::string());
         if (!isValued)
             continue;
-        // A part may be that of a node that has died, where this one has come to lie.
-        osg::observer_ptr<const osg::Node>& known = _valued[part];
-        if (known.get() == &node)
-            continue;
-        known = &node;
-        addValued(path, depth, part);
+        // A part may be that of nodes that have died, where these have come to lie.
+        if (const auto known = _valued.find(part);
+            known == _valued.end() || !isAlive(known->second))
+            addValued(path, depth, part);
     }
     return part;
 }
@@ -110,7 +116,8 @@ void MapFeatures::addValued(const osg::NodePath& path, std::size_t depth, Featur
     valued.label.anchor = topOf(upTo);
     valued.path.setNodePath(upTo);
     valued.part = part;
-    _tree.setLabelled(part);
+    _valued[part] = valued.path;
+    _tree.addLabel(part);
     _found(std::move(valued));
 }
 
@@ -121,10 +128,34 @@ std::optional<LabelSource::Found> MapFeatures::kindOf(const osg::NodePath& path)
         return std::nullopt;
     std::lock_guard<std::mutex> lock(_mutex);
     const Kind kind{partOf(path), _classes.actionOf(path)};
-    const auto [found, isNew] = _kindNumbers.emplace(kind, std::uint32_t(_kinds.size()));
+    const auto [found, isNew] = _kindNumbers.emplace(kind, 0u);
     if (isNew)
-        _kinds.push_back(kind);
+    {
+        if (_freeKinds.empty())
+        {
+            _freeKinds.push_back(std::uint32_t(_kinds.size()));
+            _kinds.emplace_back();
+        }
+        found->second = _freeKinds.back();
+        _freeKinds.pop_back();
+        _kinds[found->second] = {kind, 0};
+        _tree.hold(kind.part);
+    }
+    ++_kinds[found->second].objects;
     return LabelSource::Found{std::to_string(found->second), path.size() - 1, {}};
+}
+
+/// An object of a kind is gone.
+void MapFeatures::loseKind(std::uint32_t number)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    CountedKind& kind = _kinds[number];
+    if (--kind.objects)
+        return;
+    _kindNumbers.erase(kind);
+    _tree.release(kind.part);
+    kind = {};
+    _freeKinds.push_back(number);
 }
 
 void MapFeatures::takeNew()
@@ -208,13 +239,18 @@ MapFeatures::Occluder MapFeatures::find(const osg::Group& group, const osg::Node
 }
 
 MapFeatures::Occluder MapFeatures::findPart(const osg::NodePath& path, std::uint64_t number,
-                                            const std::string& name)
+                                            const std::string& name, Held& held)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     FeatureTree::Part part = partOf(path);
     if (_tree.isUsed(name)) // of millions of others nothing needs to be known
         part =
             _tree.add(part, hashOf(path, path.size()) ^ (number + 1) * 0x9E3779B97F4A7C15u, name);
+    if (held.empty() || held.back() != part)
+    {
+        _tree.hold(part);
+        held.push_back(part);
+    }
     const std::optional<MapAction> action = _classes.find(name);
     return {_tree.getNumber(part), action ? action : _classes.actionOf(path), MeshSides::Outward};
 }
@@ -223,6 +259,33 @@ FeatureTree::Name MapFeatures::use(const std::string& feature)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     return _tree.use(feature);
+}
+
+void MapFeatures::release(const Held& held)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    for (const FeatureTree::Part part : held)
+        _tree.release(part);
+}
+
+void MapFeatures::unuse(FeatureTree::Name name)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    _tree.unuse(name);
+}
+
+void MapFeatures::forget(FeatureTree::Part part)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (const auto known = _valued.find(part); known != _valued.end() && !isAlive(known->second))
+        _valued.erase(known);
+    _tree.removeLabel(part);
+}
+
+std::size_t MapFeatures::getPartCount()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.getPartCount();
 }
 
 FeatureTree::Range MapFeatures::getRange(FeatureTree::Name name)
@@ -235,6 +298,12 @@ FeatureTree::Range MapFeatures::getRangeOfPart(FeatureTree::Part part)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     return _tree.getRangeOfPart(part);
+}
+
+std::shared_ptr<const FeatureTree::Nesting> MapFeatures::getNesting()
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    return _tree.getNesting();
 }
 
 unsigned int MapFeatures::getModifiedCount()

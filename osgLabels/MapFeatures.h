@@ -19,8 +19,9 @@ namespace osgLabels
 {
 
 /// What stands before map labels: of each Drawable on each path below a group the feature that it
-/// is of, what it does to labels, and which of its sides count. Thread safe.
-class MapFeatures
+/// is of, what it does to labels, and which of its sides count. Keeps what lives: a part goes with
+/// the last Drawable in it, label of it and batch that has it. Thread safe.
+class OSGLABELS_EXPORT MapFeatures
 {
 public:
     /// A label by user values: "label", "labelPriority", "labelStyle" of a node.
@@ -32,8 +33,8 @@ public:
     };
     using FoundValued = std::function<void(Valued)>;
 
-    /// `found` is called once for each node with a label of its own; none: user values are not
-    /// looked at.
+    /// `found` is called once for each node with a label of its own, and again when it has another
+    /// way from the group; forget() each. None: user values are not looked at.
     MapFeatures(MapClasses classes, FoundValued found);
 
     /// All of the subgraph; what comes later is found when it is in view.
@@ -56,15 +57,25 @@ public:
                                const std::vector<Drawn>& drawn);
     /// Of a path from the group to a Drawable.
     Occluder find(const osg::Group& group, const osg::NodePath& path);
-    /// Of a part, with a number, of what is at the end of a path, which has a name and no node.
-    Occluder findPart(const osg::NodePath& path, std::uint64_t number, const std::string& name);
+    /// Of a part, with a number, of what is at the end of a path, which has a name and no node. The
+    /// part is held by `held` until release().
+    using Held = std::vector<FeatureTree::Part>;
+    Occluder findPart(const osg::NodePath& path, std::uint64_t number, const std::string& name,
+                      Held& held);
+    void release(const Held& held);
 
-    /// A label has the name of a feature.
+    /// A label has the name of a feature, until unuse().
     FeatureTree::Name use(const std::string& feature);
+    void unuse(FeatureTree::Name name);
+    /// A label by user values is gone.
+    void forget(FeatureTree::Part part);
     FeatureTree::Range getRange(FeatureTree::Name name);
     FeatureTree::Range getRangeOfPart(FeatureTree::Part part);
+    std::shared_ptr<const FeatureTree::Nesting> getNesting();
     /// Grows when numbers that were given have changed.
     unsigned int getModifiedCount();
+    /// Named parts of the scene that are kept.
+    std::size_t getPartCount();
 
 private:
     /// What Drawables on the same path of named nodes have in common.
@@ -77,7 +88,12 @@ private:
             return std::tie(part, action) < std::tie(other.part, other.action);
         }
     };
+    struct CountedKind : Kind
+    {
+        std::uint32_t objects = 0;
+    };
     std::optional<LabelSource::Found> kindOf(const osg::NodePath& path);
+    void loseKind(std::uint32_t number);
     FeatureTree::Part partOf(const osg::NodePath& path);
     void addValued(const osg::NodePath& path, std::size_t depth, FeatureTree::Part part);
     void takeNew();
@@ -90,7 +106,8 @@ private:
     std::mutex _mutex;     ///< Of all below, under the collector's.
     FeatureTree _tree;
     std::map<Kind, std::uint32_t> _kindNumbers;
-    std::vector<Kind> _kinds;
+    std::vector<CountedKind> _kinds;
+    std::vector<std::uint32_t> _freeKinds;
     struct Object
     {
         std::uint32_t kind = 0;
@@ -99,8 +116,8 @@ private:
         std::uint64_t last = 0;   ///< and of the mesh in the last frame.
     };
     std::vector<Object> _objects; ///< By the collector's number.
-    /// Parts with labels by user values, and the nodes that gave them.
-    std::unordered_map<FeatureTree::Part, osg::observer_ptr<const osg::Node>> _valued;
+    /// Parts with labels by user values, and the ways to the nodes that gave them.
+    std::unordered_map<FeatureTree::Part, osg::ObserverNodePath> _valued;
     LabelCollector _collector;
 };
 

@@ -114,6 +114,8 @@ osgMultiRender::SurfaceSnippet MapPass::makeSnippet(const SurfaceKey& key)
     const bool isMany = key.output & MapMany;
     if (key.output & MapNext)
         snippet.fragment += "#define OSGLABELS_NEXT\n";
+    if (key.output & MapNested)
+        snippet.fragment += "#define OSGLABELS_NESTED\n";
     if (isMany)
         snippet.fragment += "#define OSGLABELS_RECORDS\n";
     if (key.output & Paged)
@@ -155,7 +157,7 @@ bool MapPass::boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& near
     const osg::Matrixd modelview =
         leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd();
     const MapFrame frame(leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd(),
-                         _view);
+                         _view, _isByDepth);
     const double inf = std::numeric_limits<double>::infinity();
     nearest = inf;
     box = {inf, inf, -inf, -inf};
@@ -174,6 +176,25 @@ bool MapPass::boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& near
         nearest = std::min(nearest, frame.distanceOf(eye));
     }
     return true;
+}
+
+/// Where some rays are parallel and some are not, depth in the window says what is before what.
+void MapPass::findProjections(SurfaceFrame& frame)
+{
+    const auto isParallel = [](const osg::RefMatrix* projection) // none: clip coordinates
+    { return !projection || MapFrame(osg::Matrixd(*projection), {}).isParallel; };
+    _isByDepth = std::any_of(_groups.begin(), _groups.end(),
+                             [&](const Group& group) { return isParallel(group.projection); });
+    const osg::RefMatrix* last = nullptr;
+    frame.forEachItem(
+        [&](const SurfaceItem& item)
+        {
+            if (_isByDepth || item.leaf->_projection == last || !_occluders.count(item.leaf) ||
+                !item.state || !isSolid(*item.state) || !isHere(*item.state, _viewport))
+                return;
+            last = item.leaf->_projection.get();
+            _isByDepth = isParallel(last);
+        });
 }
 
 void MapPass::select(SurfaceFrame& frame)
@@ -229,15 +250,17 @@ std::uint32_t MapPass::actionsOf(const Occluder& occluder) const
     const std::uint32_t all = (1u << NumMapActions) - 1u, own = 1u << unsigned(_settings.mapAction);
     if (!occluder.isMany)
         return (1u << unsigned(occluder.action)) & all;
-    const std::uint32_t actions = _scene.records.getActions();
+    const std::uint32_t actions = _words->actions;
     return (actions | (actions >> (NumMapActions + 1) & 1u ? own : 0u)) & all;
 }
 
 void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
 {
+    findProjections(frame);
     place();
     if (_placed.empty())
         return;
+    findDepths();
     select(frame);
     if (!_actions.empty())
         drawLayers(renderInfo, frame);
@@ -247,19 +270,23 @@ void MapPass::drawOccluders(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
 void MapPass::drawLayers(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
 {
     osg::State& state = *renderInfo.getState();
-    const bool next = std::any_of(_needsNext.begin(), _needsNext.end(), [](bool b) { return b; });
+    const bool any = std::any_of(_needsNext.begin(), _needsNext.end(), [](bool b) { return b; });
+    const int next = any ? 1 + int(_depths.size()) : 0;
     _targets = _scene.targets.acquire(
         _contextID,
         {_viewport[0] + _viewport[2], _viewport[1] + _viewport[3], int(_actions.size()), next});
-    _records = _scene.records.upload(state);
+    _records = _scene.records.upload(state, _words);
+    if (next > 1)
+        _nests = _scene.nests.upload(state, _nesting, _depths);
     osgMultiRender::FramebufferVisit visit(state);
     for (std::size_t layer = 0; layer < _actions.size(); ++layer)
-        drawLayer(renderInfo, frame, int(layer), false);
-    for (std::size_t layer = 0; next && layer < _actions.size(); ++layer)
-        drawLayer(renderInfo, frame, int(layer), true);
+        drawLayer(renderInfo, frame, int(layer), 0);
+    for (int behind = 1; behind <= next; ++behind)
+        for (std::size_t layer = 0; layer < _actions.size(); ++layer)
+            drawLayer(renderInfo, frame, int(layer), behind);
 }
 
-void MapPass::drawLayer(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int layer, bool next)
+void MapPass::drawLayer(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int layer, int next)
 {
     osg::State& state = *renderInfo.getState();
     osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
@@ -282,7 +309,7 @@ void MapPass::drawLayer(osg::RenderInfo& renderInfo, SurfaceFrame& frame, int la
                                  { return rekey(item, action, next, side, key); });
 }
 
-osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, bool next, int side) const
+osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, int next, int side) const
 {
     osg::ref_ptr<osg::StateSet> over = new osg::StateSet;
     setState(*over, _viewport, _coverage->getBox());
@@ -296,7 +323,7 @@ osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, bool next, int side) con
                                                       : osg::FrontFace::COUNTER_CLOCKWISE),
                        Over);
     const auto add = [&](osg::Uniform* uniform) { over->addUniform(uniform, Over); };
-    add(new osg::Uniform("osgLabels_isParallel", int(_isParallel)));
+    add(new osg::Uniform("osgLabels_isByDepth", int(_isByDepth)));
     const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
     { over->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), Over); };
     if (isMany)
@@ -311,11 +338,18 @@ osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, bool next, int side) con
         texture(RowsUnit, _targets->getNear());
         add(new osg::Uniform("osgLabels_nearest", int(RowsUnit)));
         add(new osg::Uniform("osgLabels_layer0", layer));
+        if (next > 1)
+        {
+            const int numbers = MapNests::getNumbers(*_nesting);
+            texture(GlyphsUnit, _nests.get());
+            add(new osg::Uniform("osgLabels_nests", int(GlyphsUnit)));
+            add(new osg::Uniform("osgLabels_nestAt", 2 * numbers * (next - 2), numbers));
+        }
     }
     return over;
 }
 
-bool MapPass::rekey(const SurfaceItem& item, MapAction action, bool next, int side, SurfaceKey& key)
+bool MapPass::rekey(const SurfaceItem& item, MapAction action, int next, int side, SurfaceKey& key)
 {
     const auto found = _occluders.find(item.leaf);
     if (found == _occluders.end() || !found->second.isDrawn || found->second.side != side ||
@@ -334,9 +368,9 @@ bool MapPass::rekey(const SurfaceItem& item, MapAction action, bool next, int si
     }
     const auto bit = [](bool is, std::uint32_t value) { return is ? value : 0u; };
     const bool isMany = found->second.isMany;
-    key.output = MapOccluder | bit(next, MapNext) | bit(isSheer, MapOpaque) | bit(isMany, MapMany) |
-                 bit(isMany && _isPaged, Paged);
-    _drawnNext += next;
+    key.output = MapOccluder | bit(next > 0, MapNext) | bit(next > 1, MapNested) | bit(isSheer, MapOpaque) | bit(isMany, MapMany) |
+                 bit((isMany || next > 1) && _isPaged, Paged);
+    _drawnNext += next > 0;
     return true;
 }
 

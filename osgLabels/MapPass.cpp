@@ -37,6 +37,7 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
     const osg::Viewport* ofStage = visitor.getCurrentRenderBin()->getStage()->getViewport();
     if (visitor.getViewport() != ofStage)
         _ownViewport = visitor.getViewport();
+    takeLimits(visitor.getCurrentStateGraph());
     std::vector<MapFeatures::Drawn> drawn;
     std::vector<const osgUtil::RenderLeaf*> drawnLeaves;
     const auto addGroup = [&](const osg::RefMatrix* projection, std::size_t begin)
@@ -75,14 +76,37 @@ void MapPass::cull(osgUtil::CullVisitor& visitor, osg::Group& group,
                 _occluders[drawnLeaves[leaf]] = {found[leaf].number,
                                                  found[leaf].action.value_or(_settings.mapAction),
                                                  found[leaf].sides};
-        _scene.activate(group);
+        _words = _scene.activate(group);
         if (i == 0) // those that were found just now, too
             _scene.prepareValued(visitor, _labels);
         _scene.takeRanges(_labels);
-        if (_scene.features.getModifiedCount() == count)
+        _nesting = _scene.features.getNesting();
+        if (_scene.features.getModifiedCount() == count && _words->features == count)
             break;
     }
     addGroup(visitor.getProjectionMatrix(), begin);
+}
+
+/// The masks of the eyes of an anaglyph are set while it is drawn: these are the view's own.
+void MapPass::takeLimits(const osgUtil::StateGraph* graph)
+{
+    _limits.clear();
+    for (; graph; graph = graph->_parent)
+    {
+        const osg::StateSet* from = graph->getStateSet();
+        if (!from)
+            continue;
+        osg::ref_ptr<osg::StateSet> limits = new osg::StateSet;
+        for (const auto type : {osg::StateAttribute::COLORMASK, osg::StateAttribute::STENCIL,
+                                osg::StateAttribute::SCISSOR})
+            if (const auto* pair = from->getAttributePair(type))
+                limits->setAttribute(pair->first, pair->second);
+        for (const GLenum mode : {GL_STENCIL_TEST, GL_SCISSOR_TEST})
+            if (const auto value = from->getMode(mode); value != osg::StateAttribute::INHERIT)
+                limits->setMode(mode, value);
+        if (!limits->getAttributeList().empty() || !limits->getModeList().empty())
+            _limits.insert(_limits.begin(), limits);
+    }
 }
 
 bool MapPass::addMany(const osgUtil::RenderLeaf& leaf)
@@ -140,13 +164,34 @@ void MapPass::placeAll()
     for (const Group& group : _groups)
     {
         const MapFrame frame(group.projection ? osg::Matrixd(*group.projection) : osg::Matrixd(),
-                             _view);
-        _isParallel = frame.isParallel;
+                             _view, _isByDepth);
         PlacedLabel placed;
         for (std::size_t i = group.begin; i < group.end; ++i)
             if (placeLabel(_labels[i], frame, _settings, placed))
                 _placed.push_back(placed);
     }
+}
+
+/// Labels of features that others lie in need a layer for each depth of these. Deeper ones than there
+/// are layers for share the last: what is around them does not hide them.
+void MapPass::findDepths()
+{
+    constexpr std::size_t most = 6;
+    for (const PlacedLabel& placed : _placed)
+        if (const FeatureTree::Range& own = placed.label->own; own.first < own.last)
+            _depths.push_back(_nesting->depthOf(own.first));
+    std::sort(_depths.begin(), _depths.end());
+    _depths.erase(std::unique(_depths.begin(), _depths.end()), _depths.end());
+    _depths.resize(std::min(_depths.size(), most));
+}
+
+std::uint32_t MapPass::nextOf(const FeatureTree::Range& own) const
+{
+    if (own.first >= own.last || _depths.empty())
+        return 1;
+    const auto deeper =
+        std::upper_bound(_depths.begin(), _depths.end(), _nesting->depthOf(own.first));
+    return 1 + std::uint32_t(deeper - _depths.begin());
 }
 
 /// The nearest is drawn last.
@@ -167,14 +212,15 @@ MapAction MapPass::actionAt(osg::State& state, const PlacedLabel& label, int x, 
     const FeatureTree::Range& own = label.label->own;
     const auto isOwn = [&](std::uint32_t n) { return n >= own.first && n <= own.last; };
     const auto limitOf = [&](double distance)
-    { return _isParallel ? distance - 1e-6 : distance * (1.0 - 2e-6); };
+    { return _isByDepth ? distance - 1e-6 : distance * (1.0 - 2e-6); };
     std::vector<MapTargets::Texel> foreign;
     double distance = label.distance, back = -1.0;
     for (std::size_t i = 0; i < _actions.size(); ++i)
     {
-        const MapTargets::Texel near = _targets->read(state, int(i), false, x, y);
-        const MapTargets::Texel next =
-            _targets->getNext() ? _targets->read(state, int(i), true, x, y) : MapTargets::Texel();
+        const MapTargets::Texel near = _targets->read(state, int(i), 0, x, y);
+        const MapTargets::Texel next = _targets->getNext()
+                                           ? _targets->read(state, int(i), int(nextOf(own)), x, y)
+                                           : MapTargets::Texel();
         foreign.push_back(!isOwn(near.number)  ? near
                           : isOwn(next.number) ? MapTargets::Texel()
                                                : next);

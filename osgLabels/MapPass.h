@@ -66,6 +66,8 @@ private:
     bool addMany(const osgUtil::RenderLeaf& leaf);
     void place();
     void placeAll();
+    void findDepths();
+    void findProjections(osgMultiRender::SurfaceFrame& frame);
     bool isBefore(std::uint32_t a, std::uint32_t b) const;
     /// Whether the states of labels are found in this frame.
     bool needsStates() const;
@@ -77,13 +79,16 @@ private:
     std::uint32_t actionsOf(const Occluder& occluder) const;
     void drawLayers(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame);
     void drawLayer(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame, int layer,
-                   bool next);
-    osg::ref_ptr<osg::StateSet> stateOf(int layer, bool next, int side) const;
-    bool rekey(const osgMultiRender::SurfaceItem& item, MapAction action, bool next, int side,
+                   int next);
+    osg::ref_ptr<osg::StateSet> stateOf(int layer, int next, int side) const;
+    bool rekey(const osgMultiRender::SurfaceItem& item, MapAction action, int next, int side,
                osgMultiRender::SurfaceKey& key);
+    /// The layer that has what is behind a label's own feature, 1 for the first one.
+    std::uint32_t nextOf(const FeatureTree::Range& own) const;
     void upload(osg::State& state);
     osg::ref_ptr<osg::StateSet> makePass(osg::State& state, bool isTest);
     void findStates(osg::RenderInfo& renderInfo);
+    void takeLimits(const osgUtil::StateGraph* graph);
     MapAction actionAt(osg::State& state, const PlacedLabel& label, int x, int y);
 
     LabelResources& _resources;
@@ -92,13 +97,15 @@ private:
     osg::ref_ptr<MapMemory> _memory;
     osg::Matrixd _groupToEye;
     osg::ref_ptr<const osg::Viewport> _ownViewport; ///< Null: that of the stage.
+    /// What the StateSets from the view to the group say of where is drawn, the outermost first.
+    std::vector<osg::ref_ptr<osg::StateSet>> _limits;
     double _time = 0.0;
     unsigned int _contextID = 0;
     int _language = 330;
     bool _isPaged = false;
     GLint _viewport[4] = {};
     PixelBox _view;
-    bool _isParallel = false;
+    bool _isByDepth = false; ///< See MapFrame.
     std::vector<EyeLabel> _labels;
     std::vector<Group> _groups;
     std::vector<PlacedLabel> _placed;  ///< In the order of cull, which changes little.
@@ -111,16 +118,21 @@ private:
     std::size_t _refused = 0;
     osg::ref_ptr<MapTargets> _targets;
     osg::ref_ptr<MapQuads> _quads;
-    osg::ref_ptr<BufferTexture> _records; ///< Null where there are none.
+    std::shared_ptr<const FeatureTree::Nesting> _nesting; ///< Likewise.
+    std::vector<std::uint32_t> _depths; ///< Of labels' features that others lie in.
+    osg::ref_ptr<BufferTexture> _nests; ///< Null where there are none.
+    std::shared_ptr<const MapWords> _words; ///< Of what has records, as it was in cull.
+    osg::ref_ptr<BufferTexture> _records;
 };
 
 /// Bits of SurfaceKey::output that are the map's.
 enum MapBits : std::uint32_t
 {
     MapOccluder = 1u << 12,
-    MapNext = 1u << 13,   ///< The second layer.
+    MapNext = 1u << 13,   ///< A layer behind the nearest.
     MapOpaque = 1u << 14, ///< What has less than half of the opacity is left out.
-    MapMany = 1u << 15    ///< Objects have records.
+    MapMany = 1u << 15,   ///< Objects have records.
+    MapNested = 1u << 16  ///< Behind all of the feature of a certain depth, not of the number alone.
 };
 
 } // namespace osgLabels

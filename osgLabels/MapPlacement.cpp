@@ -18,15 +18,16 @@ constexpr double edge = 1.0;
 
 } // namespace
 
-MapFrame::MapFrame(const osg::Matrixd& p, const PixelBox& v)
-    : projection(p), isParallel(p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0), viewport(v)
+MapFrame::MapFrame(const osg::Matrixd& p, const PixelBox& v, bool byDepth)
+    : projection(p), isParallel(p(0, 3) == 0.0 && p(1, 3) == 0.0 && p(2, 3) == 0.0),
+      isByDepth(isParallel || byDepth), viewport(v)
 {
 }
 
 double MapFrame::distanceOf(const osg::Vec3d& eye) const
 {
     const osg::Vec4d clip = osg::Vec4d(eye, 1.0) * projection;
-    return isParallel ? 0.5 + 0.5 * clip.z() / clip.w() : clip.w();
+    return isByDepth ? 0.5 + 0.5 * clip.z() / clip.w() : clip.w();
 }
 
 bool placeLabel(const EyeLabel& label, const MapFrame& frame, const LabelSettings& settings,

@@ -44,8 +44,7 @@ struct PlacedLabel
     osg::Vec2d anchor; ///< Pixels of the window.
     osg::Vec2d center; ///< Of its text.
     double em = 0.0;   ///< Pixels.
-    /// At which it is hidden: from the eye along the view, or window depth where rays are parallel.
-    /// Negative: nothing is before it.
+    /// At which it is hidden, as MapFrame::distanceOf() says. Negative: nothing is before it.
     double distance = 0.0;
     PixelBox plate; ///< What it covers, without the leader line.
     PixelBox box;   ///< All that it draws into.
@@ -57,10 +56,12 @@ struct MapFrame
 {
     osg::Matrixd projection;
     bool isParallel = false;
+    bool isByDepth = false; ///< Where rays are parallel, of these or of others in the picture.
     PixelBox viewport;
 
-    MapFrame(const osg::Matrixd& projection, const PixelBox& viewport);
-    /// Of a point in eye coordinates: what PlacedLabel::distance says.
+    MapFrame(const osg::Matrixd& projection, const PixelBox& viewport, bool isByDepth = false);
+    /// Of a point in eye coordinates: from the eye along the view, which is exact far away too, or
+    /// window depth, which alone can be compared with that of parallel rays.
     double distanceOf(const osg::Vec3d& eye) const;
 };
 

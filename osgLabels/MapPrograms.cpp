@@ -75,15 +75,18 @@ const osg::StateSet* MapPrograms::get(const Kind& kind, const std::string& defin
     stateSet->setThreadSafeRefUnref(true);
     stateSet->setAttributeAndModes(makeProgram(kind, defines), On);
     if (kind.isTest)
+    {
         stateSet->setMode(GL_BLEND, Off);
-    else
+        stateSet->setMode(GL_STENCIL_TEST, Off);
+        stateSet->setAttribute(new osg::ColorMask, On);
+    }
+    else // masked as the view is
         stateSet->setAttributeAndModes(
             new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA), On);
     stateSet->setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
     stateSet->setAttribute(new osg::PolygonMode, On);
-    stateSet->setAttribute(new osg::ColorMask, On);
-    for (GLenum mode : {GL_DEPTH_TEST, GL_CULL_FACE, GL_ALPHA_TEST, GL_STENCIL_TEST,
-                        GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
+    for (GLenum mode : {GL_DEPTH_TEST, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
+                        GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
         stateSet->setMode(mode, Off);
     const std::pair<const char*, int> samplers[] = {{"osgLabels_nearFace", MapTargets::NearUnit},
                                                     {"osgLabels_next", MapTargets::NextUnit},

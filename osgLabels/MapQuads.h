@@ -25,7 +25,8 @@ public:
         float x, y, em, width; ///< Middle of the text in pixels; em in pixels.
         float anchorX, anchorY, distance;
         float age; ///< Seconds since it came; negative: it is not shown.
-        std::uint32_t text, ownFirst, ownLast;
+        std::uint32_t text, ownFirst;
+        std::uint32_t ownLast; ///< From bit NextShift on the layer that is behind them.
         /// In the lowest bits the number of the style, then these, then from bit 8 on the index of
         /// its state in the last frame plus 1.
         std::uint32_t style;
@@ -34,6 +35,7 @@ public:
     {
         Gone = 1u << 6 ///< It only keeps its state.
     };
+    static constexpr int NextShift = 27;
 
     MapQuads(unsigned int contextID, const Layout&) : osg::Referenced(true), _contextID(contextID)
     {

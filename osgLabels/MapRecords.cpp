@@ -11,48 +11,47 @@ namespace
 
 constexpr std::uint32_t noClass = 7;
 
+void set(MapWords& into, std::size_t record, const MapFeatures::Occluder& occluder)
+{
+    const std::uint32_t action = occluder.action ? std::uint32_t(*occluder.action) : noClass;
+    const std::uint32_t number = std::max(occluder.number, FeatureTree::Foreign);
+    if (record >= into.words.size())
+        into.words.resize(record + 1);
+    into.words[record] = number << 5 | action << 2 | std::uint32_t(occluder.sides);
+    into.actions |= 1u << (occluder.action ? action : NumMapActions + 1);
+}
+
 } // namespace
 
 void MapRecords::setChunked(std::vector<Chunked> chunked)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     _chunked = std::move(chunked);
-    _taken.reset();
+    _words.reset();
 }
 
-void MapRecords::set(std::size_t record, const MapFeatures::Occluder& occluder)
-{
-    const std::uint32_t action = occluder.action ? std::uint32_t(*occluder.action) : noClass;
-    const std::uint32_t number = std::max(occluder.number, FeatureTree::Foreign);
-    if (record >= _words.size())
-        _words.resize(record + 1);
-    _words[record] = number << 5 | action << 2 | std::uint32_t(occluder.sides);
-    _actions |= 1u << (occluder.action ? action : NumMapActions + 1);
-}
-
-void MapRecords::update(const osg::Group& group)
+std::shared_ptr<const MapWords> MapRecords::update(const osg::Group& group)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    const std::uint64_t time = _batches.getTime();
-    if (_taken == std::pair(_features.getModifiedCount(), time))
-        return;
     // Names that are new while these are taken change the numbers of others.
     constexpr int tries = 3;
     for (int i = 0; i < tries; ++i)
     {
-        _taken = {_features.getModifiedCount(), time};
-        take(group);
-        if (_features.getModifiedCount() == _taken->first)
+        if (_words && _words->features == _features.getModifiedCount() &&
+            _words->batches == _batches.getTime())
             break;
+        _words = take(group);
     }
-    ++_version;
+    return _words;
 }
 
-void MapRecords::take(const osg::Group& group)
+std::shared_ptr<const MapWords> MapRecords::take(const osg::Group& group)
 {
-    _words.clear();
-    _actions = 0;
-    set(0, {}); // of what has no record
+    auto taken = std::make_shared<MapWords>();
+    taken->features = _features.getModifiedCount();
+    taken->batches = _batches.getTime();
+    set(*taken, 0, {}); // of what has no record
+    MapFeatures::Held held;
     _batches.forEach(
         [&](const PrimitiveBatch& batch, std::uint32_t first)
         {
@@ -66,38 +65,36 @@ void MapRecords::take(const osg::Group& group)
                 {
                     const unsigned int object = run->getFirstObject() + i;
                     MapFeatures::Occluder occluder =
-                        _features.findPart(below, object, batch.getObjectName(object));
+                        _features.findPart(below, object, batch.getObjectName(object), held);
                     if (run->getShape() == Shape::Quad)
                         occluder.sides = MeshSides::Open;
-                    set(first + object, occluder);
+                    set(*taken, first + object, occluder);
                 }
         });
+    _features.release(_held);
+    _held.swap(held);
     for (const Chunked& each : _chunked)
         if (each.object)
-            set(_objects.indexOf(each.object), _features.find(group, each.path));
+            set(*taken, _objects.indexOf(each.object), _features.find(group, each.path));
+    return taken;
 }
 
-osg::ref_ptr<BufferTexture> MapRecords::upload(osg::State& state)
+osg::ref_ptr<BufferTexture> MapRecords::upload(osg::State& state,
+                                               const std::shared_ptr<const MapWords>& words)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     Context& context = _contexts[state.getContextID()];
     if (!context.texture)
         context.texture =
             new BufferTexture(state.getContextID(), 1, BufferTexture::needsPages(state));
-    const std::size_t bytes = _words.size() * sizeof(_words.front());
-    if (context.version != _version && bytes)
+    if (context.words != words && words)
     {
+        const std::size_t bytes = words->words.size() * sizeof(words->words.front());
         context.texture->resize(state, bytes);
-        context.texture->write(state, 0, _words.data(), bytes);
-        context.version = _version;
+        context.texture->write(state, 0, words->words.data(), bytes);
+        context.words = words;
     }
     return context.texture;
-}
-
-std::uint32_t MapRecords::getActions() const
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    return _actions;
 }
 
 void MapRecords::releaseGLObjects(osg::State* state)

@@ -6,13 +6,24 @@
 #include <osgLabels/MapFeatures.h>
 
 #include <map>
+#include <memory>
 
 namespace osgLabels
 {
 
-/// What stands before map labels of Drawables that hold many objects, batches and chunks: a word
-/// for each record of LabelObjects, that occluder.frag reads. Thread safe.
-class MapRecords
+/// A word for each record of LabelObjects: number, 3 bits of action (7: no class), 2 of sides.
+struct MapWords
+{
+    std::vector<std::uint32_t> words;
+    /// A bit for each action that an object has; bit NumMapActions + 1 where one has no class.
+    std::uint32_t actions = 0;
+    unsigned int features = 0; ///< Modified count of their numbers.
+    std::uint64_t batches = 0; ///< Time of theirs.
+};
+
+/// What stands before map labels of Drawables that hold many objects, batches and chunks: words
+/// that occluder.frag reads. A frame keeps those that it was culled with. Thread safe.
+class OSGLABELS_EXPORT MapRecords
 {
 public:
     MapRecords(const LabelBatches& batches, const LabelObjects& objects, MapFeatures& features)
@@ -28,32 +39,27 @@ public:
     };
     void setChunked(std::vector<Chunked> chunked);
 
-    /// Takes features as they are, in cull.
-    void update(const osg::Group& group);
-    /// Uploads what is new for the context, which is current.
-    osg::ref_ptr<BufferTexture> upload(osg::State& state);
-    /// A bit for each action that an object has; bit NumMapActions + 1 where one has no class.
-    std::uint32_t getActions() const;
+    /// Of features as they are, in cull.
+    std::shared_ptr<const MapWords> update(const osg::Group& group);
+    /// Uploads what the context, which is current, does not have already.
+    osg::ref_ptr<BufferTexture> upload(osg::State& state,
+                                       const std::shared_ptr<const MapWords>& words);
     void releaseGLObjects(osg::State* state);
 
 private:
-    void take(const osg::Group& group);
-    void set(std::size_t record, const MapFeatures::Occluder& occluder);
+    std::shared_ptr<const MapWords> take(const osg::Group& group);
 
     const LabelBatches& _batches;
     const LabelObjects& _objects;
     MapFeatures& _features;
-    mutable std::mutex _mutex;
+    std::mutex _mutex;
     std::vector<Chunked> _chunked;
-    std::vector<std::uint32_t> _words; ///< Number, 3 bits of action (7: no class), 2 of sides.
-    std::uint32_t _actions = 0;
-    /// Modified count of the features, time of the batches.
-    std::optional<std::pair<unsigned int, std::uint64_t>> _taken;
-    unsigned int _version = 0;
+    std::shared_ptr<const MapWords> _words; ///< Null: to be taken.
+    MapFeatures::Held _held;
     struct Context
     {
         osg::ref_ptr<BufferTexture> texture;
-        unsigned int version = 0;
+        std::shared_ptr<const MapWords> words;
     };
     std::map<unsigned int, Context> _contexts;
 };

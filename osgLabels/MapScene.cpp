@@ -181,6 +181,7 @@ void MapScene::releaseGLObjects(osg::State* state)
     quads.releaseGLObjects(state);
     programs.releaseGLObjects(state);
     records.releaseGLObjects(state);
+    nests.releaseGLObjects(state);
     std::lock_guard<std::mutex> lock(_mutex);
     for (auto each = _memories.begin(); each != _memories.end();)
     {
@@ -200,7 +201,7 @@ void MapScene::addValued(MapFeatures::Valued valued)
     _hasValues = true;
 }
 
-void MapScene::activate(osg::Group& group)
+std::shared_ptr<const MapWords> MapScene::activate(osg::Group& group)
 {
     std::lock_guard<std::mutex> lock(_cullMutex);
     if (!_isActive)
@@ -208,7 +209,7 @@ void MapScene::activate(osg::Group& group)
     else
         features.sweep(group, sweptPerFrame);
     _isActive = true;
-    records.update(group);
+    return records.update(group);
 }
 
 void MapScene::prepare(const MapLabels& node, const osg::Matrixd& localToEye,
@@ -257,6 +258,7 @@ void MapScene::prepareValued(osgUtil::CullVisitor& visitor, std::vector<EyeLabel
         if (!each.path.getRefNodePath(path))
         {
             texts.remove(each.label);
+            features.forget(each.label.part);
             each.isGone = true;
             continue;
         }

@@ -4,6 +4,7 @@
 #include <osgLabels/LabelBuffers.h>
 #include <osgLabels/MapFeatures.h>
 #include <osgLabels/MapMemory.h>
+#include <osgLabels/MapNests.h>
 #include <osgLabels/MapPlacement.h>
 #include <osgLabels/MapPrograms.h>
 #include <osgLabels/MapQuads.h>
@@ -40,8 +41,8 @@ public:
     void prepareValued(osgUtil::CullVisitor& visitor, std::vector<EyeLabel>& labels);
     /// Numbers of the labels' own features, as they are now.
     void takeRanges(std::vector<EyeLabel>& labels);
-    /// Finds what stands before labels; from the first label in view on.
-    void activate(osg::Group& group);
+    /// Finds what stands before labels, from the first label in view on; returns that of records.
+    std::shared_ptr<const MapWords> activate(osg::Group& group);
 
     /// The labels of the file that the settings name; null without one.
     osg::Node* getFileLabels() const { return _fileLabels.get(); }
@@ -56,6 +57,7 @@ public:
     MapFeatures features;
     MapTexts texts;
     MapRecords records;
+    MapNests nests;
     LabelBuffers buffers;
     osgMultiRender::TargetPool<MapTargets> targets;
     osgMultiRender::TargetPool<MapQuads> quads;

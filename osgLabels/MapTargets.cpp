@@ -17,7 +17,8 @@ MapTargets::MapTargets(unsigned int contextID, const MapLayout& layout)
       _depth(new TargetTexture(GL_DEPTH_COMPONENT32F, layout.width, layout.height, 0, 1))
 {
     if (layout.next)
-        _next = new TargetTexture(GL_RG32UI, layout.width, layout.height, layout.actions, 1);
+        _next = new TargetTexture(GL_RG32UI, layout.width, layout.height,
+                                  layout.actions * layout.next, 1);
 }
 
 std::size_t MapTargets::getBytes() const
@@ -28,15 +29,18 @@ std::size_t MapTargets::getBytes() const
     return bytes;
 }
 
-void MapTargets::bind(osg::State& state, int action, bool next)
+void MapTargets::bind(osg::State& state, int action, int next)
 {
     _framebuffer.bind(state, 2);
     _depth->attach(state, GL_DEPTH_ATTACHMENT_EXT, 0);
     _color->attach(state, GL_COLOR_ATTACHMENT0_EXT, 0);
-    (next ? _next : _near)->attach(state, GL_COLOR_ATTACHMENT0_EXT + 1, action);
+    if (next)
+        _next->attach(state, GL_COLOR_ATTACHMENT0_EXT + 1, (next - 1) * _layout.actions + action);
+    else
+        _near->attach(state, GL_COLOR_ATTACHMENT0_EXT + 1, action);
 }
 
-MapTargets::Texel MapTargets::read(osg::State& state, int action, bool next, int x, int y)
+MapTargets::Texel MapTargets::read(osg::State& state, int action, int next, int x, int y)
 {
     Texel texel;
     if (x < 0 || y < 0 || x >= _layout.width || y >= _layout.height)

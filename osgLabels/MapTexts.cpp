@@ -74,9 +74,11 @@ PreparedLabel MapTexts::prepare(const MapLabel& label, std::uint32_t identifier)
     return prepared;
 }
 
-/// Those from the first one on.
+/// Their features, and the identifiers of those from the first one on.
 void MapTexts::forget(const std::vector<PreparedLabel>& labels, std::size_t first)
 {
+    for (const PreparedLabel& label : labels)
+        _features.unuse(label.feature);
     for (std::size_t i = first; i < labels.size(); ++i)
     {
         const std::uint32_t identifier = labels[i].identifier;

@@ -1,5 +1,5 @@
 // What becomes of a place of a map label, by what stands before it. OSGLABELS_LAYERS: actions in use; 0: nothing
-// stands anywhere. OSGLABELS_NEXT: there is a second layer, the nearest of another feature than the first.
+// stands anywhere. OSGLABELS_NEXT: there are layers with the nearest of another feature than the first.
 
 const int osgLabels_Hide = 0, osgLabels_Outline = 1, osgLabels_Recolor = 2, osgLabels_Fade = 3, osgLabels_Ignore = 4;
 
@@ -9,7 +9,7 @@ uniform usampler2DArray osgLabels_nearFace; // number, distance
 uniform usampler2DArray osgLabels_next;
 #endif
 uniform ivec4 osgLabels_actions; // of the layers, the strongest first
-uniform int osgLabels_isParallel;
+uniform int osgLabels_isByDepth;
 uniform int osgLabels_isBack; // labels lie just before the backs of their own features
 
 bool osgLabels_isOwn(uint number, uvec2 own) { return number >= own.x && number <= own.y; }
@@ -17,25 +17,29 @@ bool osgLabels_isOwn(uint number, uvec2 own) { return number >= own.x && number 
 // Float rounding, of rasterizing too, and more.
 float osgLabels_before(float distance)
 {
-    return osgLabels_isParallel != 0 ? distance - 1e-6 : distance - 2e-6 * abs(distance);
+    return osgLabels_isByDepth != 0 ? distance - 1e-6 : distance - 2e-6 * abs(distance);
 }
 
-uvec2 osgLabels_nextAt(ivec2 p, int layer)
+// Of the layer `next`, 1 for the first of them.
+uvec2 osgLabels_nextAt(ivec2 p, int layer, int next)
 {
 #ifdef OSGLABELS_NEXT
-    return texelFetch(osgLabels_next, ivec3(p, layer), 0).rg;
+    return texelFetch(osgLabels_next, ivec3(p, (next - 1) * OSGLABELS_LAYERS + layer), 0).rg;
 #else
     return uvec2(0u);
 #endif
 }
 
-int osgLabels_actionAt(ivec2 p, float distance, uvec2 own)
+// `keys`: numbers of the own feature from, to; the latter with the layer that is behind it.
+int osgLabels_actionAt(ivec2 p, float distance, uvec2 keys)
 {
+    uvec2 own = uvec2(keys.x, keys.y & 0x7ffffffu);
+    int behind = int(keys.y >> 27u);
     uvec2 foreign[OSGLABELS_LAYERS];
     float back = -1.0;
     for (int i = 0; i < OSGLABELS_LAYERS; ++i)
     {
-        uvec2 near = texelFetch(osgLabels_nearFace, ivec3(p, i), 0).rg, next = osgLabels_nextAt(p, i);
+        uvec2 near = texelFetch(osgLabels_nearFace, ivec3(p, i), 0).rg, next = osgLabels_nextAt(p, i, behind);
         bool isNear = osgLabels_isOwn(near.x, own), isNext = osgLabels_isOwn(next.x, own);
         foreign[i] = isNear ? (isNext ? uvec2(0u) : next) : near;
         float found = isNear ? uintBitsToFloat(near.y) : isNext ? uintBitsToFloat(next.y) : -1.0;
@@ -50,5 +54,5 @@ int osgLabels_actionAt(ivec2 p, float distance, uvec2 own)
     return osgLabels_Ignore;
 }
 #else
-int osgLabels_actionAt(ivec2 p, float distance, uvec2 own) { return osgLabels_Ignore; }
+int osgLabels_actionAt(ivec2 p, float distance, uvec2 keys) { return osgLabels_Ignore; }
 #endif

@@ -92,8 +92,8 @@ TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
     FeatureTree tree;
     const auto a = tree.add(FeatureTree::Scene, 1, "Building");
     const auto b = tree.add(FeatureTree::Scene, 2, "Building");
-    tree.setLabelled(a);
-    tree.setLabelled(b);
+    tree.addLabel(a);
+    tree.addLabel(b);
     EXPECT_NE(tree.getNumber(a), tree.getNumber(b));
     EXPECT_TRUE(isIn(tree.getNumber(a), tree.getRangeOfPart(a)));
     EXPECT_FALSE(isIn(tree.getNumber(b), tree.getRangeOfPart(a)));
@@ -127,4 +127,110 @@ TEST(FeatureTree, aKeyThatComesAgainWithAnotherNameIsAnotherPart)
     EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
     EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "barn"), second);
     EXPECT_TRUE(isIn(tree.getNumber(first), tree.getRange(house)));
+}
+
+TEST(FeatureTree, aPartStaysWhileItIsHeldOrSomethingInItIs)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "house");
+    const auto roof = tree.add(house, 2, "roof");
+    tree.hold(house);
+    tree.hold(roof);
+    tree.hold(roof);
+    tree.release(house);
+    tree.release(roof);
+    EXPECT_EQ(tree.getPartCount(), 3u);
+    EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "house"), house);
+    tree.release(roof);
+    EXPECT_EQ(tree.getPartCount(), 1u) << "the scene";
+    EXPECT_EQ(tree.getNameCount(), 0u);
+}
+
+TEST(FeatureTree, aPartThatIsGoneIsNoFeatureAnyMore)
+{
+    FeatureTree tree;
+    const auto name = tree.use("house");
+    std::vector<FeatureTree::Part> houses;
+    for (std::uint64_t key = 1; key <= 3; ++key)
+        tree.hold(houses.emplace_back(tree.add(FeatureTree::Scene, key, "house")));
+    const auto shed = tree.add(houses[0], 9, "shed");
+    tree.hold(shed);
+    tree.release(houses[0]); // the shed keeps it
+    tree.release(houses[1]);
+    EXPECT_TRUE(isIn(tree.getNumber(houses[2]), tree.getRange(name)));
+    EXPECT_TRUE(isIn(tree.getNumber(shed), tree.getRange(name)));
+    tree.release(shed);
+    tree.release(houses[2]);
+    EXPECT_EQ(tree.getPartCount(), 1u);
+    EXPECT_EQ(tree.getNameCount(), 1u) << "the label's";
+    tree.unuse(name);
+    EXPECT_EQ(tree.getNameCount(), 0u);
+    EXPECT_FALSE(tree.isUsed("house"));
+    const auto again = tree.add(FeatureTree::Scene, 1, "house");
+    EXPECT_EQ(tree.getNumber(again), FeatureTree::Foreign) << "no label names it";
+}
+
+TEST(FeatureTree, numbersThatAPartLeavesAreNotThoseOfAnother)
+{
+    FeatureTree tree;
+    const auto house = tree.use("house"), barn = tree.use("barn");
+    const auto first = tree.add(FeatureTree::Scene, 1, "house");
+    const auto second = tree.add(FeatureTree::Scene, 2, "barn");
+    tree.hold(first);
+    tree.hold(second);
+    const auto before = tree.getNumber(second);
+    tree.release(first);
+    EXPECT_EQ(tree.getNumber(second), before);
+    const auto third = tree.add(FeatureTree::Scene, 3, "");
+    EXPECT_EQ(tree.getNumber(third), FeatureTree::Foreign);
+    EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
+    EXPECT_TRUE(isIn(tree.getNumber(second), tree.getRange(barn)));
+}
+
+TEST(FeatureTree, labelsOfAPartEndWithTheLastOne)
+{
+    FeatureTree tree;
+    const auto house = tree.add(FeatureTree::Scene, 1, "");
+    tree.hold(house);
+    tree.addLabel(house);
+    tree.addLabel(house);
+    tree.removeLabel(house);
+    EXPECT_NE(tree.getNumber(house), FeatureTree::Foreign);
+    tree.removeLabel(house);
+    EXPECT_EQ(tree.getNumber(house), FeatureTree::Foreign);
+    tree.release(house);
+    EXPECT_EQ(tree.getPartCount(), 1u);
+}
+
+TEST(FeatureTree, nestingSaysWhatIsAroundANumber)
+{
+    FeatureTree tree;
+    const auto campus = tree.add(FeatureTree::Scene, 1, "campus");
+    const auto house = tree.add(campus, 2, "house");
+    const auto wing = tree.add(house, 3, "wing");
+    const auto barn = tree.add(FeatureTree::Scene, 4, "barn");
+    std::vector<FeatureTree::Range> ranges;
+    for (const char* name : {"campus", "house", "wing", "barn"})
+        tree.use(name);
+    for (const char* name : {"campus", "house", "wing"})
+        ranges.push_back(tree.getRange(tree.use(name)));
+    const auto nesting = tree.getNesting();
+    for (std::uint32_t depth = 0; depth < 3; ++depth)
+    {
+        const auto around = nesting->at(tree.getNumber(wing), depth);
+        EXPECT_EQ(around.first, ranges[depth].first);
+        EXPECT_EQ(around.last, ranges[depth].last);
+        EXPECT_EQ(nesting->depthOf(ranges[depth].first), depth);
+    }
+    // What has no feature of that depth around it is alone.
+    for (const std::uint32_t number : {0u, FeatureTree::Foreign, tree.getNumber(campus), 99u})
+    {
+        EXPECT_EQ(nesting->at(number, 1).first, number);
+        EXPECT_EQ(nesting->at(number, 1).last, number);
+    }
+    EXPECT_EQ(nesting->at(tree.getNumber(barn), 0).last, tree.getNumber(barn));
+    tree.unuse(tree.use("new"));
+    tree.addLabel(barn);
+    tree.getNumber(barn);
+    EXPECT_EQ(nesting->at(tree.getNumber(wing), 0).first, ranges[0].first) << "stays as it was";
 }

@@ -2,6 +2,7 @@
 // Map labels with batches, chunks, picks, surface labels, shadows and several views.
 #include "MapPictures.h"
 
+#include <osgLabels/LabelResources.h>
 #include <osgLabels/PrimitiveBatch.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
@@ -47,6 +48,25 @@ int whole(const std::string& text, const osg::Vec3d& anchor)
 /// Edges of plates are mixed with what is behind them.
 constexpr int Edges = 12;
 
+/// Blocks by their names and places along x.
+osg::ref_ptr<osgLabels::PrimitiveBatch>
+batchOf(const std::vector<std::pair<std::string, double>>& blocks)
+{
+    osg::ref_ptr<osgLabels::PrimitiveBatch> batch = new osgLabels::PrimitiveBatch;
+    batch->setName("blocks");
+    for (const auto& [name, x] : blocks)
+    {
+        osgLabels::Primitive block;
+        block.shape = osgLabels::Shape::Box;
+        block.size = osg::Vec3(0.3f, 0.3f, 0.5f);
+        block.position = osg::Vec3d(x, 0, 0);
+        block.name = name;
+        batch->add(block);
+    }
+    batch->build();
+    return batch;
+}
+
 LabelScene::Picked pickAt(LabelScene& scene, double x, double y)
 {
     scene.pick(x, y);
@@ -58,18 +78,7 @@ LabelScene::Picked pickAt(LabelScene& scene, double x, double y)
 
 TEST_F(MapComposition, objectsOfBatchesHideByTheirNames)
 {
-    osg::ref_ptr<osgLabels::PrimitiveBatch> batch = new osgLabels::PrimitiveBatch;
-    batch->setName("blocks");
-    for (const char* const name : {"tower", "tree"})
-    {
-        osgLabels::Primitive block;
-        block.shape = osgLabels::Shape::Box;
-        block.size = osg::Vec3(0.3f, 0.3f, 0.5f);
-        block.position = osg::Vec3d(name == std::string("tower") ? -0.5 : 0.5, 0, 0);
-        block.name = name;
-        batch->add(block);
-    }
-    batch->build();
+    const auto batch = batchOf({{"tower", -0.5}, {"tree", 0.5}});
     const osg::Vec3d left(-0.5, 0.5, 0), right(0.5, 0.5, 0);
     const auto pixels = [&](const osg::Vec3d& at, const std::string& own) {
         return redPixels(
@@ -80,6 +89,39 @@ TEST_F(MapComposition, objectsOfBatchesHideByTheirNames)
     EXPECT_NEAR(pixels(left, "blocks"), whole("text", left), Edges) << "the batch";
     EXPECT_NEAR(pixels(right, ""), whole("text", right), Edges) << "by its class";
     EXPECT_NEAR(pixels({-0.5, 0.2, 0}, ""), whole("text", {-0.5, 0.2, 0}), Edges) << "inside";
+}
+
+TEST_F(MapComposition, aFrameKeepsTheFeaturesThatItWasCulledWith)
+{
+    // Between the cull and the draw of a frame another cull gives the features other numbers.
+    struct OtherCull : osg::Camera::DrawCallback
+    {
+        explicit OtherCull(LabelScene& ofScene) : scene(ofScene) {}
+        void operator()(osg::RenderInfo&) const override
+        {
+            osgLabels::MapScene& map = *scene.getResources()->map;
+            const auto before = map.features.getModifiedCount();
+            map.features.use("ground");
+            map.records.update(scene);
+            hasChanged = map.features.getModifiedCount() != before;
+        }
+        LabelScene& scene;
+        mutable bool hasChanged = false;
+    };
+    const osg::Vec3d at(-0.5, 0.5, 0);
+    const auto top = scene({box("ground", {0, 1, -0.9f}, {1, 0.3f, 0.05f}),
+                            batchOf({{"tower", -0.5}, {"tree", 0.5}}), label("text", at, "tower")});
+    const int expected = redPixels(*render(*top));
+    ASSERT_NEAR(expected, whole("text", at), Edges);
+    const osg::ref_ptr<OtherCull> other = new OtherCull(*top);
+    osg::Camera& camera = *labelScene::viewer().getViewer().getCamera();
+    camera.addPreDrawCallback(other);
+    const Picture picture =
+        render(*top, labelScene::fromFront(), labelScene::Width, labelScene::Height, 1);
+    camera.removePreDrawCallback(other);
+    EXPECT_TRUE(other->hasChanged);
+    EXPECT_EQ(redPixels(*picture), expected);
+    EXPECT_EQ(redPixels(*render(*top)), expected) << "with the new numbers";
 }
 
 TEST_F(MapComposition, chunksHideAsTheirObjectsDo)
