@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Stores that are damaged, or taken away, while they are shown.
+#include "PictureFiles.h"
 #include "VirtualStores.h"
 
 #include <osgPagedTexture/TileFolders.h>
@@ -173,17 +174,15 @@ TEST_F(VirtualPagerFaultTest, aFolderThatIsGoneDoesNotBecomeEmptyPages)
     {
         const auto encode = [](const TileColor& color, int width, int height)
         {
-            // A picture that needs no library: binary PPM, which is opaque.
-            std::string bytes =
-                "P6 " + std::to_string(width) + " " + std::to_string(height) + " 255\n";
-            for (int i = 0; i < width * height; ++i)
+            Pixels pixels(width, height, 3);
+            for (std::size_t i = 0; i < pixels.bytes.size(); ++i)
             {
-                bytes.append({char(color[0]), char(color[1]), char(color[2])});
+                pixels.bytes[i] = color[i % 3];
             }
-            return bytes;
+            return encodeJpeg(pixels);
         };
         TileStoreSettings settings = source.settings();
-        settings.format = "ppm";
+        settings.format = "jpg";
         TileFolderWriter writer(path, FolderLayout::LibVT, settings, encode);
         source.put(writer, 1);
         writer.commit();

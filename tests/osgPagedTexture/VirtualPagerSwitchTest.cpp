@@ -128,7 +128,7 @@ TEST_F(VirtualPagerSwitchTest, withoutRoomPagesAreReplacedInOneFrameTheCoarsestF
     for (const int pagesInPlace : {1, 6, 1000})
     {
         source.build(store, 1);
-        VirtualPagerSettings settings = smallPager(24);
+        VirtualPagerSettings settings = smallPager(25); // just what is needed
         settings.switchBytes = std::uint64_t(pagesInPlace) * pageBytes;
         VirtualPager pager(settings);
         pager.addTexture(store);
