@@ -86,7 +86,9 @@ void VirtualPager::State::removeTexture(std::uint32_t id)
         return;
     }
     watch.close(id);
-    forget([&](const PageVersion& page) { return page.page.texture == id; });
+    const auto isOfIt = [&](const PageVersion& page) { return page.page.texture == id; };
+    cancel(isOfIt);
+    forget(isOfIt);
     for (auto& [context, each] : contexts)
     {
         each.removeTexture(id);

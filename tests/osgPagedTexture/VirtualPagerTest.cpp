@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <random>
+
 namespace osgPagedTexture
 {
 
@@ -77,6 +81,27 @@ TEST_F(VirtualPagerTest, fourSlotsShowACoarserPictureAndStayStill)
     EXPECT_EQ(pager.getStatistics().uploadedPages, uploaded);
     EXPECT_GT(pager.getStatistics().bias, 0);
     EXPECT_LE(pager.getStatistics().usedSlots, 4);
+    EXPECT_EQ(model.versions(texture, grid), std::set<int>{1});
+}
+
+TEST_F(VirtualPagerTest, feedbackThatSeesOtherPagesEachTimeMovesNothingWhereNotAllFits)
+{
+    std::mt19937 random(2);
+    VirtualPager pager(smallPager(200));
+    const std::uint32_t texture = pager.addTexture(store);
+    const std::vector<PageNeed> all = needsOf(grid, texture, 0, 0, 0, 30, 20);
+    std::uint64_t uploaded = 0;
+    for (int i = 0; i < 400; ++i)
+    {
+        std::vector<PageNeed> seen;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(seen),
+                     [&](const PageNeed&) { return random() % 2 == 0; });
+        pager.report(0, seen);
+        settle(pager, model, frame);
+        uploaded = i < 100 ? pager.getStatistics().uploadedPages : uploaded;
+    }
+    EXPECT_EQ(pager.getStatistics().uploadedPages, uploaded);
+    EXPECT_EQ(pager.getStatistics().bias, 1);
     EXPECT_EQ(model.versions(texture, grid), std::set<int>{1});
 }
 
