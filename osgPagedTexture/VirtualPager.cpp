@@ -44,7 +44,7 @@ VirtualPager::State::State(const VirtualPagerSettings& newSettings)
 
 std::uint32_t VirtualPager::State::addTexture(const std::string& path)
 {
-    Texture texture;
+    PagerTexture texture;
     texture.path = path;
     const std::uint32_t id = _lastTexture;
     texture.store = watch.open(id, path);

@@ -66,7 +66,7 @@ void VirtualPager::State::takeResults()
     }
 }
 
-void VirtualPager::State::accept(PageResult result, Texture& texture)
+void VirtualPager::State::accept(PageResult result, PagerTexture& texture)
 {
     const bool isNext = texture.next && texture.next->generation == result.page.generation;
     if (!isNext && texture.generation != result.page.generation)
@@ -93,7 +93,7 @@ void VirtualPager::State::accept(PageResult result, Texture& texture)
     }
 }
 
-void VirtualPager::State::fail(const PageResult& result, Texture& texture)
+void VirtualPager::State::fail(const PageResult& result, PagerTexture& texture)
 {
     const auto [failure, isNew] = _failed.emplace(result.page, Failure());
     failure->second = {result.mayPass, Clock::now()};
@@ -178,7 +178,7 @@ void VirtualPager::State::hold()
 }
 
 /// Whether the page is there, or will not come.
-bool VirtualPager::State::holdOne(const PageNeed& need, Texture& texture)
+bool VirtualPager::State::holdOne(const PageNeed& need, PagerTexture& texture)
 {
     const PageVersion page{need.page, texture.generation};
     const int slot = _slots.find(page);

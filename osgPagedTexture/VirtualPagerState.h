@@ -25,6 +25,30 @@
 namespace osgPagedTexture
 {
 
+/// The state of a store that a texture goes to.
+struct NextState
+{
+    StoreWatch::Change change;
+    std::uint32_t generation = 0;
+    std::unordered_set<PageKey> unchanged;            ///< Shown ones that are right already.
+    std::unordered_map<PageKey, LoadedPage> gathered; ///< That have no slot yet.
+};
+
+/// A texture and its store.
+struct PagerTexture
+{
+    std::string path;
+    std::shared_ptr<const TileReader> store;
+    TileGrid grid;
+    int coarsest = 0;
+    int finest = 0; ///< That may be shown.
+    std::uint32_t generation = 1;
+    std::uint32_t lastGeneration = 1;
+    std::optional<NextState> next;
+    std::optional<StoreWatch::Change> change; ///< That comes after that.
+    int namedTiles = 0;                       ///< Damages told since the last change.
+};
+
 class VirtualPager::State
 {
 public:
@@ -50,28 +74,7 @@ public:
     PageFormat format;
     int border = 0;
 
-    /// The state of a store that a texture goes to.
-    struct Next
-    {
-        StoreWatch::Change change;
-        std::uint32_t generation = 0;
-        std::unordered_set<PageKey> unchanged;            ///< Shown ones that are right already.
-        std::unordered_map<PageKey, LoadedPage> gathered; ///< That have no slot yet.
-    };
-    struct Texture
-    {
-        std::string path;
-        std::shared_ptr<const TileReader> store;
-        TileGrid grid;
-        int coarsest = 0;
-        int finest = 0; ///< That may be shown.
-        std::uint32_t generation = 1;
-        std::uint32_t lastGeneration = 1;
-        std::optional<Next> next;
-        std::optional<StoreWatch::Change> change; ///< That comes after that.
-        int namedTiles = 0;                       ///< Damages told since the last change.
-    };
-    std::map<std::uint32_t, Texture> textures;
+    std::map<std::uint32_t, PagerTexture> textures;
     StoreWatch watch;
 
 private:
@@ -90,12 +93,12 @@ private:
     void dropIdleContexts();
     void takeChanges();
     void takeResults();
-    void accept(PageResult result, Texture& texture);
-    void fail(const PageResult& result, Texture& texture);
+    void accept(PageResult result, PagerTexture& texture);
+    void fail(const PageResult& result, PagerTexture& texture);
     void choose();
     void needHeld();
     void hold();
-    bool holdOne(const PageNeed& need, Texture& texture);
+    bool holdOne(const PageNeed& need, PagerTexture& texture);
     void ask(const PageVersion& page, const std::shared_ptr<const TileReader>& store,
              const std::string& name, double priority, const ContentHash& known);
     void cancel(const std::function<bool(const PageVersion&)>& isGone);
@@ -115,16 +118,16 @@ private:
         int slots = 0;
         int inPlace = 0; ///< In the slots of the old ones, in the frame of the switch.
     };
-    static bool isTouched(const Next& next, const TileGrid& grid, const PageKey& page);
+    static bool isTouched(const NextState& next, const TileGrid& grid, const PageKey& page);
     int pagesInPlace() const;
-    std::vector<PageNeed> pagesToGather(std::uint32_t id, const Texture& texture) const;
-    void gather(std::uint32_t id, Texture& texture);
-    bool gatherOne(Texture& texture, const PageNeed& need, Room& room);
-    void abandon(std::uint32_t id, Texture& texture);
-    void goOver(std::uint32_t id, Texture& texture, const std::vector<PageNeed>& pages);
-    std::vector<PageContext::Upload> replaceInPlace(Texture& texture,
+    std::vector<PageNeed> pagesToGather(std::uint32_t id, const PagerTexture& texture) const;
+    void gather(std::uint32_t id, PagerTexture& texture);
+    bool gatherOne(PagerTexture& texture, const PageNeed& need, Room& room);
+    void abandon(std::uint32_t id, PagerTexture& texture);
+    void goOver(std::uint32_t id, PagerTexture& texture, const std::vector<PageNeed>& pages);
+    std::vector<PageContext::Upload> replaceInPlace(PagerTexture& texture,
                                                     const std::vector<PageNeed>& pages);
-    std::vector<PageContext::Carried> carryOver(std::uint32_t id, Texture& texture);
+    std::vector<PageContext::Carried> carryOver(std::uint32_t id, PagerTexture& texture);
 
     static constexpr std::uint64_t MinCachePages = 64; ///< What is loaded lasts until its upload.
 

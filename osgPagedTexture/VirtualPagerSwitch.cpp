@@ -8,7 +8,8 @@
 namespace osgPagedTexture
 {
 
-bool VirtualPager::State::isTouched(const Next& next, const TileGrid& grid, const PageKey& page)
+bool VirtualPager::State::isTouched(const NextState& next, const TileGrid& grid,
+                                    const PageKey& page)
 {
     const auto& regions = next.change.regions;
     return next.change.isAll ||
@@ -47,7 +48,7 @@ void VirtualPager::State::takeChanges()
 
 /// What is in view and may be another in the next state, the coarsest first.
 std::vector<PageNeed> VirtualPager::State::pagesToGather(std::uint32_t id,
-                                                         const Texture& texture) const
+                                                         const PagerTexture& texture) const
 {
     std::vector<PageNeed> pages{{{id, texture.coarsest, 0, 0}, 1}};
     for (const PageNeed& need : _selection.getPages())
@@ -61,7 +62,7 @@ std::vector<PageNeed> VirtualPager::State::pagesToGather(std::uint32_t id,
     return pages;
 }
 
-void VirtualPager::State::gather(std::uint32_t id, Texture& texture)
+void VirtualPager::State::gather(std::uint32_t id, PagerTexture& texture)
 {
     const std::vector<PageNeed> pages = pagesToGather(id, texture);
     if (_failed.count({pages.front().page, texture.next->generation}) != 0)
@@ -89,9 +90,9 @@ int VirtualPager::State::pagesInPlace() const
 
 /// Whether nothing has to be waited for: the page is gathered, or the picture does not have it now
 /// either, or there is no room for it.
-bool VirtualPager::State::gatherOne(Texture& texture, const PageNeed& need, Room& room)
+bool VirtualPager::State::gatherOne(PagerTexture& texture, const PageNeed& need, Room& room)
 {
-    Next& next = *texture.next;
+    NextState& next = *texture.next;
     const PageVersion page{need.page, next.generation};
     const int oldSlot = _slots.find({need.page, texture.generation});
     const bool isShown = oldSlot != PageSlots::None;
@@ -130,7 +131,7 @@ bool VirtualPager::State::gatherOne(Texture& texture, const PageNeed& need, Room
 }
 
 /// The new state cannot be shown: even its coarsest page is damaged.
-void VirtualPager::State::abandon(std::uint32_t id, Texture& texture)
+void VirtualPager::State::abandon(std::uint32_t id, PagerTexture& texture)
 {
     const std::uint32_t generation = texture.next->generation;
     forget([&](const PageVersion& page)
@@ -140,7 +141,7 @@ void VirtualPager::State::abandon(std::uint32_t id, Texture& texture)
                         "' cannot be shown, what is shown stays; update the store again");
 }
 
-void VirtualPager::State::goOver(std::uint32_t id, Texture& texture,
+void VirtualPager::State::goOver(std::uint32_t id, PagerTexture& texture,
                                  const std::vector<PageNeed>& pages)
 {
     PageContext::Switch change;
@@ -167,9 +168,9 @@ void VirtualPager::State::goOver(std::uint32_t id, Texture& texture,
 }
 
 std::vector<PageContext::Upload>
-VirtualPager::State::replaceInPlace(Texture& texture, const std::vector<PageNeed>& pages)
+VirtualPager::State::replaceInPlace(PagerTexture& texture, const std::vector<PageNeed>& pages)
 {
-    const Next& next = *texture.next;
+    const NextState& next = *texture.next;
     std::vector<PageContext::Upload> uploads;
     for (const PageNeed& need : pages)
     {
@@ -189,9 +190,10 @@ VirtualPager::State::replaceInPlace(Texture& texture, const std::vector<PageNeed
 }
 
 /// Takes what is the same in both states into the next one.
-std::vector<PageContext::Carried> VirtualPager::State::carryOver(std::uint32_t id, Texture& texture)
+std::vector<PageContext::Carried> VirtualPager::State::carryOver(std::uint32_t id,
+                                                                 PagerTexture& texture)
 {
-    const Next& next = *texture.next;
+    const NextState& next = *texture.next;
     const auto isSame = [&](const PageKey& page)
     { return next.unchanged.count(page) != 0 || !isTouched(next, texture.grid, page); };
     std::vector<PageContext::Carried> carried;

@@ -87,7 +87,7 @@ TEST_F(VirtualPagerTest, fourSlotsShowACoarserPictureAndStayStill)
 TEST_F(VirtualPagerTest, feedbackThatSeesOtherPagesEachTimeMovesNothingWhereNotAllFits)
 {
     std::mt19937 random(2);
-    VirtualPager pager(smallPager(200));
+    VirtualPager pager(smallPager(240));
     const std::uint32_t texture = pager.addTexture(store);
     const std::vector<PageNeed> all = needsOf(grid, texture, 0, 0, 0, 30, 20);
     std::uint64_t uploaded = 0;
