@@ -35,6 +35,44 @@ Pixels fillSquare(const Pixels& tile, int side, int left, int top)
     return square;
 }
 
+std::uint32_t wordAt(const std::string& bytes, std::size_t place)
+{
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        word |= std::uint32_t(std::uint8_t(bytes[place + i])) << 8 * i;
+    }
+    return word;
+}
+
+/// The blocks of a DDS file of that side and format, whose rows lie as a page's; else empty.
+PageTexels blocksOfDds(const std::string& bytes, const PageFormat& format)
+{
+    constexpr std::size_t headerBytes = 128;
+    constexpr std::size_t dx10Bytes = 20;
+    constexpr std::uint32_t dxt1 = 0x31545844, dxt5 = 0x35545844, dx10 = 0x30315844;
+    constexpr std::uint32_t bc7 = 98, bc7Srgb = 99; // DXGI_FORMAT
+    if (bytes.size() < headerBytes + dx10Bytes || bytes.compare(0, 4, "DDS ") != 0 ||
+        wordAt(bytes, 12) != std::uint32_t(format.side) ||
+        wordAt(bytes, 16) != std::uint32_t(format.side))
+    {
+        return {};
+    }
+    const std::uint32_t code = wordAt(bytes, 84);
+    const std::uint32_t extended = code == dx10 ? wordAt(bytes, headerBytes) : 0;
+    const bool isAlike =
+        (format.format == BlockFormat::BC1 && code == dxt1) ||
+        (format.format == BlockFormat::BC3 && code == dxt5) ||
+        (format.format == BlockFormat::BC7 && (extended == bc7 || extended == bc7Srgb));
+    const std::size_t start = headerBytes + (code == dx10 ? dx10Bytes : 0);
+    if (!isAlike || bytes.size() - start < format.bytes())
+    {
+        return {};
+    }
+    const auto first = bytes.begin() + std::ptrdiff_t(start);
+    return {first, first + std::ptrdiff_t(format.bytes())};
+}
+
 Pixels fillColor(const TileColor& color, int side)
 {
     Pixels square(side, side, 4);
@@ -68,8 +106,16 @@ PageTexels makePage(const TileData& tile, const TileGrid& grid, const TileKey& k
         return encodeBlocks(fillColor(isThere ? tile.color : format.background, format.side),
                             format.format, format.quality);
     }
-    const Pixels pixels = decodeTile(tile.bytes, name);
     const PixelRect place = grid.getPixels(key);
+    if (place.width == format.side && place.height == format.side)
+    {
+        PageTexels blocks = blocksOfDds(tile.bytes, format);
+        if (!blocks.empty())
+        {
+            return blocks;
+        }
+    }
+    const Pixels pixels = decodeTile(tile.bytes, name);
     if (pixels.width != place.width || pixels.height != place.height)
     {
         throw TileStoreError(TileStoreError::Kind::Damaged,

@@ -32,9 +32,10 @@ OSGPAGEDTEXTURE_EXPORT BlockFormat pageFormatOf(const TileStoreSettings& store);
 /// Texels of a slot's side for pages of a store.
 OSGPAGEDTEXTURE_EXPORT int pageSideOf(const TileGrid& grid, BlockFormat format);
 
-/// Turns a tile into a page. Tiles that end with the picture repeat its edge up to the full side.
-/// `name` is for messages. Throws TileStoreError::Kind::Damaged where the tile is no picture or has
-/// another size than the grid says. Any thread.
+/// Turns a tile into a page. Tiles that are DDS files of the page's own format and side are taken
+/// as they are, without decoding. Tiles that end with the picture repeat its edge up to the full
+/// side. `name` is for messages. Throws TileStoreError::Kind::Damaged where the tile is no picture
+/// or has another size than the grid says. Any thread.
 OSGPAGEDTEXTURE_EXPORT PageTexels makePage(const TileData& tile, const TileGrid& grid,
                                            const TileKey& key, const PageFormat& format,
                                            const std::string& name);

@@ -107,7 +107,7 @@ void VirtualPager::State::fail(const PageResult& result, PagerTexture& texture)
     }
 }
 
-bool VirtualPager::State::hasFailed(const PageVersion& page)
+bool VirtualPager::State::hasFailed(const PageVersion& page) const
 {
     const auto failure = _failed.find(page);
     return failure != _failed.end() &&

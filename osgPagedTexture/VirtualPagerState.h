@@ -102,7 +102,7 @@ private:
     void ask(const PageVersion& page, const std::shared_ptr<const TileReader>& store,
              const std::string& name, double priority, const ContentHash& known);
     void cancel(const std::function<bool(const PageVersion&)>& isGone);
-    bool hasFailed(const PageVersion& page);
+    bool hasFailed(const PageVersion& page) const;
     bool isEverywhere(int slot) const;
     bool isExpected(int slot) const;
     void count(std::size_t missing);

@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace osgPagedTexture;
 
@@ -125,6 +128,43 @@ TEST(PageTexelsTest, aTileOfAnotherSizeIsRefusedByName)
         EXPECT_EQ(std::string(error.what()),
                   "osgPagedTexture::VirtualPager: 'a.tiles': tile 1, 1 of level 0 has 30 x 32 "
                   "pixels instead of 32 x 32; build the store anew");
+    }
+}
+
+TEST(PageTexelsTest, ddsTilesOfThePagesFormatAreTakenAsTheyAre)
+{
+    const TileGrid grid(200, 200, 32, 2);
+    const Pixels picture = samplePicture(32, 32, 3);
+    for (const auto& [format, code] :
+         {std::pair(BlockFormat::BC1, 0x31545844u), std::pair(BlockFormat::BC7, 0x30315844u)})
+    {
+        const std::vector<std::uint8_t> blocks = encodeBlocks(picture, format, EncodeQuality::Best);
+        std::string file(128, '\0');
+        const auto put = [&](std::size_t place, std::uint32_t word)
+        {
+            for (std::size_t i = 0; i < 4; ++i)
+            {
+                file[place + i] = char(word >> 8 * i);
+            }
+        };
+        file.replace(0, 4, "DDS ");
+        put(4, 124);
+        put(12, 32);
+        put(16, 32);
+        put(76, 32);
+        put(80, 4);
+        put(84, code);
+        if (format == BlockFormat::BC7)
+        {
+            file.resize(148);
+            put(128, 98);
+        }
+        file.append(blocks.begin(), blocks.end());
+        const PageFormat same{format, 32, EncodeQuality::Fast, {}};
+        EXPECT_EQ(makePage(TileData::encoded(file), grid, {0, 1, 1}, same, "tile"), blocks);
+        file.pop_back();
+        EXPECT_THROW(makePage(TileData::encoded(file), grid, {0, 1, 1}, same, "tile"),
+                     TileStoreError);
     }
 }
 
