@@ -11,6 +11,8 @@ cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo -DOSGKITS_SAN
 targets=(osgMultiRender.{GlslToken,GlslSource,GlslWrap,SurfaceKey,SurfaceState,PseudoLoader}Test
     osgShadowVolume.{LightReach,LightGrid}Test
     osgPagedTexture.{ImageFile,ImageFileError,DamagedJpeg,ChainCache,SourceIndex,WorkerPool,ChainLoader,ChainLoaderFailure}Test
+    osgPagedTexture.{PageTable,PageSlots,PageSelection,PageTexels,PageLoader}Test
+    osgPagedTexture.VirtualPager{,Switch,Fault,Random}Test
     precision.PrecisionTest)
 NINJA_STATUS="[%f/%t] " cmake --build "$folder" --target "${targets[@]}"
 # OSG keeps its registries until the end, so leaks are looked for in the GLSL model alone (tests/fuzz).
