@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/TileEncoder.h>
+
+#include <osgPagedTexture/DdsFile.h>
+
+#include <algorithm>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+class BlockTileEncoder : public TileEncoder
+{
+public:
+    BlockTileEncoder(BlockFormat format, EncodeQuality quality) : _format(format), _quality(quality)
+    {
+    }
+
+    std::string encode(const TileRows& tile) override
+    {
+        // Blocks go from the first row on, which in these files is the top one.
+        Pixels pixels(tile.width, tile.height, tile.channels);
+        for (int y = 0; y < tile.height; ++y)
+        {
+            std::copy_n(tile.rows[y], std::size_t(tile.width) * tile.channels, pixels.row(y));
+        }
+        const std::vector<std::uint8_t> blocks = encodeBlocks(pixels, _format, _quality);
+        std::string bytes = ddsHeader(_format, tile.width, tile.height);
+        bytes.append(reinterpret_cast<const char*>(blocks.data()), blocks.size());
+        return bytes;
+    }
+
+private:
+    const BlockFormat _format;
+    const EncodeQuality _quality;
+};
+
+} // namespace
+
+std::string TileFormat::extension() const
+{
+    return coding == TileCoding::Jpeg ? "jpg" : coding == TileCoding::Png ? "png" : "dds";
+}
+
+std::unique_ptr<TileEncoder> makeTileEncoder(const TileFormat& format)
+{
+    switch (format.coding)
+    {
+    case TileCoding::Jpeg:
+        return makeJpegTileEncoder(format.quality, format.chroma);
+    case TileCoding::Png:
+        return makePngTileEncoder(format.compression);
+    case TileCoding::Bc1:
+        return std::make_unique<BlockTileEncoder>(BlockFormat::BC1, format.blocks);
+    case TileCoding::Bc3:
+        return std::make_unique<BlockTileEncoder>(BlockFormat::BC3, format.blocks);
+    case TileCoding::Bc7:
+        break;
+    }
+    return std::make_unique<BlockTileEncoder>(BlockFormat::BC7, format.blocks);
+}
+
+} // namespace osgPagedTexture
