@@ -11,7 +11,7 @@ namespace osgPagedTexture
 namespace
 {
 
-constexpr std::size_t PieceBytes = 256 << 10;
+constexpr std::size_t PieceBytes = 64 << 10;
 constexpr std::size_t Failed = ~std::size_t(0);
 
 } // namespace

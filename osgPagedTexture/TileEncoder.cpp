@@ -4,6 +4,7 @@
 #include <osgPagedTexture/DdsFile.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace osgPagedTexture
 {
@@ -37,6 +38,26 @@ private:
     const EncodeQuality _quality;
 };
 
+bool isUniform(const TileRows& tile)
+{
+    const std::size_t bytes = std::size_t(tile.width) * tile.channels;
+    const std::uint8_t* const first = tile.rows[0];
+    if (std::memcmp(first, first + tile.channels, bytes - tile.channels) != 0)
+    {
+        return false;
+    }
+    return std::all_of(tile.rows + 1, tile.rows + tile.height,
+                       [&](const std::uint8_t* row)
+                       { return std::memcmp(row, first, bytes) == 0; });
+}
+
+TileColor colorOf(const std::uint8_t* pixel, int channels)
+{
+    return channels == 1 ? TileColor{pixel[0], pixel[0], pixel[0], 255}
+                         : TileColor{pixel[0], pixel[1], pixel[2],
+                                     channels == 4 ? pixel[3] : std::uint8_t(255)};
+}
+
 } // namespace
 
 std::string TileFormat::extension() const
@@ -60,6 +81,15 @@ std::unique_ptr<TileEncoder> makeTileEncoder(const TileFormat& format)
         break;
     }
     return std::make_unique<BlockTileEncoder>(BlockFormat::BC7, format.blocks);
+}
+
+TileData makeTile(const TileRows& tile, TileEncoder& encoder)
+{
+    if (isUniform(tile))
+    {
+        return TileData::uniform(colorOf(tile.rows[0], tile.channels));
+    }
+    return TileData::encoded(encoder.encode(tile));
 }
 
 } // namespace osgPagedTexture

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgPagedTexture/TileFormat.h>
+#include <osgPagedTexture/TileStore.h>
 
 #include <cstdint>
 #include <memory>
@@ -27,6 +28,9 @@ public:
     /// Throws TileStoreError where the pixels cannot be encoded.
     virtual std::string encode(const TileRows& tile) = 0;
 };
+
+/// A uniform tile where all its pixels are equal, else an encoded one.
+TileData makeTile(const TileRows& tile, TileEncoder& encoder);
 
 std::unique_ptr<TileEncoder> makeTileEncoder(const TileFormat& format);
 std::unique_ptr<TileEncoder> makeJpegTileEncoder(int quality, ChromaSampling chroma);
