@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/TileBuilder.h>
 
+#include <osgPagedTexture/TileEncoder.h>
 #include <osgPagedTexture/TileWalk.h>
 
 #include <algorithm>
