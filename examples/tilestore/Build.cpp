@@ -51,6 +51,8 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
   --filter F             [filter] linear: coarser levels average light (default); plain: code
                          values, as most programs do
   --background R,G,B     [background] where there is no photograph; default 255,255,255
+  --lossless             [lossless] tiles of level 0 that lie in one JPEG are cut out of it without
+                         loss, of its own quality; where tile side - 2 * border is a multiple of 16
   --padding N            [padding] pixels around photographs that repeat their edge; default 12
   --max-width N          [maxWidth] of the picture that they are laid out in
   --memory SIZE          [memory] for rows of it, such as 512MiB; default 1GiB. The layout gets

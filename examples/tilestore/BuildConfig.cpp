@@ -44,6 +44,7 @@ constexpr Setting Settings[] = {
     {"--channels", "channels", Setting::Kind::Number},
     {"--filter", "filter", Setting::Kind::Text},
     {"--background", "background", Setting::Kind::Color},
+    {"--lossless", "lossless", Setting::Kind::Flag},
     {"--padding", "padding", Setting::Kind::Number},
     {"--max-width", "maxWidth", Setting::Kind::Number},
     {"--memory", "memory", Setting::Kind::Text},
