@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/AtlasLayout.h>
+
+#include <osgPagedTexture/AtlasCells.h>
+#include <osgPagedTexture/ContentHash.h>
+#include <osgPagedTexture/TileStore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+constexpr int MaxPadding = 65536;
+constexpr int MaxAlignment = 4096;
+
+[[noreturn]] void refuse(const std::string& what)
+{
+    throw TileStoreError(TileStoreError::Kind::Refused, "osgPagedTexture::AtlasLayout: " + what);
+}
+
+std::string sizeText(std::int64_t width, std::int64_t height)
+{
+    return std::to_string(width) + " x " + std::to_string(height);
+}
+
+void checkPhoto(const AtlasPhoto& photo)
+{
+    if (photo.width < 1 || photo.height < 1)
+    {
+        refuse("photograph '" + photo.path + "' of " + sizeText(photo.width, photo.height) +
+               " pixels has no place; leave it out");
+    }
+    for (const PixelRect& part : photo.used)
+    {
+        if (part.x < 0 || part.y < 0 || part.width < 1 || part.height < 1 ||
+            part.width > photo.width - part.x || part.height > photo.height - part.y)
+        {
+            refuse("a used part of photograph '" + photo.path +
+                   "' is empty or outside of it; make its parts again");
+        }
+    }
+}
+
+/// The largest first: what comes late fills the room between them. Names decide between equals, so
+/// that the order of the list does not count.
+std::vector<std::size_t> packingOrder(const std::vector<AtlasPhoto>& photos,
+                                      const std::vector<AtlasCell>& cells)
+{
+    std::vector<std::size_t> order(photos.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b)
+              {
+                  const auto key = [&](std::size_t i)
+                  { return std::pair(-cells[i].height, -cells[i].width); };
+                  return key(a) != key(b) ? key(a) < key(b) : photos[a].path < photos[b].path;
+              });
+    return order;
+}
+
+std::vector<AtlasCell> cellsOf(const AtlasLayout& layout, const std::vector<AtlasPhoto>& photos)
+{
+    std::vector<AtlasCell> cells;
+    cells.reserve(photos.size());
+    for (const AtlasPhoto& photo : photos)
+    {
+        cells.push_back(cellOf(layout, photo));
+    }
+    return cells;
+}
+
+/// Places the cells in a strip of this width and returns its height.
+std::int64_t packStrip(std::vector<AtlasCell>& cells, const std::vector<std::size_t>& order,
+                       std::int64_t width)
+{
+    AtlasSkyline skyline(width);
+    for (const std::size_t i : order)
+    {
+        skyline.place(cells[i]);
+    }
+    return skyline.getBottom();
+}
+
+/// The width whose strip is nearest to a square, of some around the root of the area.
+std::int64_t findWidth(std::vector<AtlasCell> cells, const std::vector<std::size_t>& order,
+                       std::int64_t least, std::int64_t most)
+{
+    double area = 0.0;
+    for (const AtlasCell& cell : cells)
+    {
+        area += double(cell.width) * double(cell.height);
+    }
+    const double side = std::sqrt(area);
+    // A million photographs fill any width; few of them only some.
+    const int tries = int(std::clamp<std::size_t>(200000 / (cells.size() + 1), 1, 64));
+    std::int64_t best = 0, bestSide = std::numeric_limits<std::int64_t>::max();
+    for (int i = 0; i < tries; ++i)
+    {
+        const double share = tries > 1 ? 0.9 + 0.6 * i / (tries - 1) : 1.03;
+        const std::int64_t width =
+            std::clamp<std::int64_t>(std::llround(side * share), least, most);
+        const std::int64_t longer = std::max(width, packStrip(cells, order, width));
+        if (longer < bestSide)
+        {
+            best = width;
+            bestSide = longer;
+        }
+    }
+    return best;
+}
+
+void appendNumber(std::string& text, std::int64_t number)
+{
+    text += std::to_string(number);
+    text += ' ';
+}
+
+} // namespace
+
+PixelRect AtlasPhoto::getBox() const
+{
+    if (used.empty())
+    {
+        return {0, 0, width, height};
+    }
+    std::int64_t left = width, top = height, right = 0, bottom = 0;
+    for (const PixelRect& part : used)
+    {
+        left = std::min(left, part.x);
+        top = std::min(top, part.y);
+        right = std::max(right, part.x + part.width);
+        bottom = std::max(bottom, part.y + part.height);
+    }
+    return {left, top, right - left, bottom - top};
+}
+
+PixelRect AtlasPhoto::getPlace() const
+{
+    const PixelRect box = getBox();
+    return {x + box.x, y + box.y, box.width, box.height};
+}
+
+AtlasSettings AtlasSettings::forTiles(int tileSide, int border, int cleanLevels)
+{
+    AtlasSettings settings;
+    settings.padding = paddingForLevels(cleanLevels);
+    const int payload = tileSide - 2 * border;
+    settings.alignment = 16; // the largest block of a JPEG with halved colour
+    settings.alignmentOffset = payload % settings.alignment == 0 ? (16 - border % 16) % 16 : 0;
+    return settings;
+}
+
+PixelRect AtlasLayout::getCovered(const AtlasPhoto& photo) const
+{
+    const PixelRect place = photo.getPlace();
+    const std::int64_t left = std::max<std::int64_t>(place.x - padding, 0);
+    const std::int64_t top = std::max<std::int64_t>(place.y - padding, 0);
+    return {left, top, std::min(place.x + place.width + padding, width) - left,
+            std::min(place.y + place.height + padding, height) - top};
+}
+
+std::string AtlasLayout::getContentHash() const
+{
+    std::string text;
+    for (const std::int64_t number : {width, height, std::int64_t(padding)})
+    {
+        appendNumber(text, number);
+    }
+    for (const AtlasPhoto& photo : photos)
+    {
+        text += photo.hash;
+        for (const std::int64_t number :
+             {std::int64_t(photo.width), std::int64_t(photo.height), photo.x, photo.y})
+        {
+            appendNumber(text, number);
+        }
+        for (const PixelRect& part : photo.used)
+        {
+            for (const std::int64_t number : {part.x, part.y, part.width, part.height})
+            {
+                appendNumber(text, number);
+            }
+        }
+        text += '\n';
+    }
+    return hashText(text).text();
+}
+
+AtlasLayout packAtlas(std::vector<AtlasPhoto> photos, const AtlasSettings& settings)
+{
+    if (settings.padding < 0 || settings.padding > MaxPadding || settings.alignment < 1 ||
+        settings.alignment > MaxAlignment || settings.alignmentOffset < 0 ||
+        settings.alignmentOffset >= settings.alignment || settings.maxWidth < 0)
+    {
+        refuse("padding must be in 0..65536, alignment in 1..4096 and its offset below that");
+    }
+    AtlasLayout layout;
+    layout.padding = settings.padding;
+    layout.alignment = settings.alignment;
+    layout.alignmentOffset = settings.alignmentOffset;
+    std::for_each(photos.begin(), photos.end(), checkPhoto);
+    std::vector<AtlasCell> cells = cellsOf(layout, photos);
+    const std::vector<std::size_t> order = packingOrder(photos, cells);
+    std::int64_t widest = 1;
+    for (const AtlasCell& cell : cells)
+    {
+        widest = std::max(widest, cell.width);
+    }
+    const std::int64_t most = settings.maxWidth > 0
+                                  ? std::max(unitsIn(layout, settings.maxWidth), widest)
+                                  : std::max(unitsIn(layout, TileGrid::MaxSide), widest);
+    packStrip(cells, order, findWidth(cells, order, widest, most));
+    for (std::size_t i = 0; i < photos.size(); ++i)
+    {
+        moveToCell(layout, photos[i], cells[i].x, cells[i].y);
+    }
+    layout.photos = std::move(photos);
+    growAroundPhotos(layout);
+    return layout;
+}
+
+void addPhotos(AtlasLayout& layout, std::vector<AtlasPhoto> photos)
+{
+    std::for_each(photos.begin(), photos.end(), checkPhoto);
+    std::vector<AtlasCell> cells = cellsOf(layout, layout.photos);
+    std::vector<AtlasCell> added = cellsOf(layout, photos);
+    std::int64_t width = std::max<std::int64_t>(unitsIn(layout, layout.width), 1);
+    for (const AtlasCell& cell : added)
+    {
+        width = std::max(width, cell.width);
+    }
+    const std::vector<std::size_t> order = packingOrder(photos, added);
+    const std::size_t tries = std::clamp<std::size_t>(4000000 / (photos.size() + 1), 64, 100000);
+    // The last cells of rows and columns may begin where the atlas leaves less than their units.
+    const int rest = layout.alignment - 1;
+    AtlasHoles holes(unitsIn(layout, layout.width + rest), unitsIn(layout, layout.height + rest),
+                     cells);
+    std::vector<std::size_t> below;
+    for (const std::size_t i : order)
+    {
+        const auto isInside = [&](const AtlasCell& cell)
+        {
+            moveToCell(layout, photos[i], cell.x, cell.y);
+            const PixelRect place = photos[i].getPlace();
+            return place.x + place.width <= layout.width && place.y + place.height <= layout.height;
+        };
+        holes.place(added[i], tries, isInside) ? cells.push_back(added[i]) : below.push_back(i);
+    }
+    AtlasSkyline skyline(width, cells);
+    for (const std::size_t i : below)
+    {
+        skyline.place(added[i]);
+    }
+    for (std::size_t i = 0; i < photos.size(); ++i)
+    {
+        moveToCell(layout, photos[i], added[i].x, added[i].y);
+        layout.photos.push_back(std::move(photos[i]));
+    }
+    growAroundPhotos(layout);
+}
+
+void removePhoto(AtlasLayout& layout, std::size_t index)
+{
+    layout.photos.erase(layout.photos.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+bool fitsInPlace(const AtlasLayout& layout, std::size_t index, int width, int height)
+{
+    AtlasPhoto photo = layout.photos[index];
+    photo.width = width;
+    photo.height = height;
+    const PixelRect box = photo.getBox();
+    if (!photo.used.empty())
+    {
+        return box.x + box.width <= width && box.y + box.height <= height;
+    }
+    const PixelRect place = photo.getPlace();
+    const AtlasCell cell = cellOf(layout, photo);
+    const auto isFree = [&](const AtlasPhoto& other)
+    { return &other == &layout.photos[index] || !cellOf(layout, other).overlaps(cell); };
+    return place.x + place.width <= layout.width && place.y + place.height <= layout.height &&
+           std::all_of(layout.photos.begin(), layout.photos.end(), isFree);
+}
+
+void checkAtlas(const AtlasLayout& layout)
+{
+    const auto damaged = [](const std::string& what) {
+        throw TileStoreError(TileStoreError::Kind::Damaged,
+                             "osgPagedTexture::AtlasLayout: " + what);
+    };
+    AtlasLayout pixels; // places, without padding and alignment
+    std::vector<AtlasCell> places = cellsOf(pixels, layout.photos);
+    AtlasCellIndex index(places);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+        const AtlasPhoto& photo = layout.photos[i];
+        checkPhoto(photo);
+        const AtlasCell& place = places[i];
+        if (place.x < 0 || place.y < 0 || place.right() > layout.width ||
+            place.bottom() > layout.height)
+        {
+            damaged("photograph '" + photo.path + "' at " + std::to_string(photo.x) + ", " +
+                    std::to_string(photo.y) + " is not inside of the atlas of " +
+                    sizeText(layout.width, layout.height) + " pixels; make the layout anew");
+        }
+        index.anyOver(place,
+                      [&](std::size_t other)
+                      {
+                          damaged("photographs '" + layout.photos[other].path + "' and '" +
+                                  photo.path + "' lie over each other; make the layout anew");
+                          return true;
+                      });
+        index.add(place);
+    }
+}
+
+} // namespace osgPagedTexture
