@@ -99,6 +99,39 @@ std::optional<BlockFormat> findFormat(const std::string& head)
     return {};
 }
 
+/// All of it. `reserved`: the words that DDS has no use for, up to 44 bytes.
+std::string ddsHead(BlockFormat format, int width, int height, int levels, std::string reserved)
+{
+    constexpr std::uint32_t caps = 0x1, heightWidth = 0x6, pitch = 0x8, pixelFormatFlag = 0x1000,
+                            mipCount = 0x20000, linearSize = 0x80000;
+    const std::uint64_t size = isBlocked(format) ? levelBytes(format, width, height)
+                                                 : std::uint64_t(width) * unitBytes(format);
+    std::string text = "DDS ";
+    putWord(text, 124);
+    putWord(text, caps | heightWidth | pixelFormatFlag | mipCount |
+                      (isBlocked(format) ? linearSize : pitch));
+    putWord(text, static_cast<std::uint32_t>(height));
+    putWord(text, static_cast<std::uint32_t>(width));
+    putWord(text, static_cast<std::uint32_t>(size));
+    putWord(text, 0); // depth
+    putWord(text, static_cast<std::uint32_t>(levels));
+    reserved.resize(11 * sizeof(std::uint32_t), '\0');
+    text += reserved;
+    putPixelFormat(text, pixelFormat(format));
+    constexpr std::uint32_t complex = 0x8, texture = 0x1000, mipmap = 0x400000;
+    putWord(text, texture | (levels > 1 ? complex | mipmap : 0));
+    text.append(4 * sizeof(std::uint32_t), '\0'); // caps 2 to 4, reserved
+    if (format == BlockFormat::BC7)
+    {
+        constexpr std::uint32_t texture2d = 3, arraySize = 1;
+        for (std::uint32_t word : {DxgiBc7, texture2d, 0u, arraySize, 0u})
+        {
+            putWord(text, word);
+        }
+    }
+    return text;
+}
+
 } // namespace
 
 std::size_t ChainFileLayout::headerBytes() const
@@ -128,42 +161,22 @@ std::uint64_t ChainFileLayout::checksumOf(const char* table) const
 
 std::string ChainFileLayout::header() const
 {
-    constexpr std::uint32_t caps = 0x1, heightWidth = 0x6, pitch = 0x8, pixelFormatFlag = 0x1000,
-                            mipCount = 0x20000, linearSize = 0x80000;
-    const int side = levelSide(width, firstLevel);
-    const std::uint64_t size = isBlocked(format)
-                                   ? levelBytes(format, side, levelSide(height, firstLevel))
-                                   : std::uint64_t(side) * unitBytes(format);
-    std::string text = "DDS ";
-    putWord(text, 124);
-    putWord(text, caps | heightWidth | pixelFormatFlag | mipCount |
-                      (isBlocked(format) ? linearSize : pitch));
-    putWord(text, static_cast<std::uint32_t>(levelSide(height, firstLevel)));
-    putWord(text, static_cast<std::uint32_t>(side));
-    putWord(text, static_cast<std::uint32_t>(size));
-    putWord(text, 0); // depth
-    putWord(text, static_cast<std::uint32_t>(levels()));
+    std::string reserved;
     for (std::uint32_t word :
          {Magic, Version, std::uint32_t(width), std::uint32_t(height), std::uint32_t(firstLevel)})
     {
-        putWord(text, word);
+        putWord(reserved, word);
     }
-    putLong(text, tableChecksum);
-    putLong(text, key.low);
-    putLong(text, key.high);
-    putPixelFormat(text, pixelFormat(format));
-    constexpr std::uint32_t complex = 0x8, texture = 0x1000, mipmap = 0x400000;
-    putWord(text, texture | (levels() > 1 ? complex | mipmap : 0));
-    text.append(4 * sizeof(std::uint32_t), '\0'); // caps 2 to 4, reserved
-    if (format == BlockFormat::BC7)
-    {
-        constexpr std::uint32_t texture2d = 3, arraySize = 1;
-        for (std::uint32_t word : {DxgiBc7, texture2d, 0u, arraySize, 0u})
-        {
-            putWord(text, word);
-        }
-    }
-    return text;
+    putLong(reserved, tableChecksum);
+    putLong(reserved, key.low);
+    putLong(reserved, key.high);
+    return ddsHead(format, levelSide(width, firstLevel), levelSide(height, firstLevel), levels(),
+                   reserved);
+}
+
+std::string ddsHeader(BlockFormat format, int width, int height)
+{
+    return ddsHead(format, width, height, 1, {});
 }
 
 std::optional<ChainFileLayout> parseChainHeader(const std::string& head, std::uint64_t fileBytes)

@@ -40,6 +40,9 @@ struct ChainFileLayout
 /// More than any header.
 constexpr std::size_t MaxChainHeaderBytes = 148;
 
+/// What stands before the pixels of a DDS texture without further levels.
+std::string ddsHeader(BlockFormat format, int width, int height);
+
 /// The layout that the first bytes of a file say, or nothing where one bit of them is not as
 /// ChainFileLayout::header() writes it or the file has another length.
 std::optional<ChainFileLayout> parseChainHeader(const std::string& head, std::uint64_t fileBytes);

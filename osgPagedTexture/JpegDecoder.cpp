@@ -47,7 +47,17 @@ void JpegDecoder::watch(j_common_ptr info)
     }
 }
 
-JpegDecoder::JpegDecoder(const std::string& bytes) : _bytes(bytes)
+JpegDecoder::JpegDecoder(const std::string& bytes) : _bytes(&bytes)
+{
+    setUp();
+}
+
+JpegDecoder::JpegDecoder(JpegFileInput& input) : _input(&input)
+{
+    setUp();
+}
+
+void JpegDecoder::setUp()
 {
     _info.err = jpeg_std_error(&_errors.base);
     _errors.base.error_exit = fail;
@@ -69,8 +79,15 @@ bool JpegDecoder::readHeader()
     jpeg_create_decompress(&_info);
     _info.progress = &_progress;
     jpeg_save_markers(&_info, JPEG_APP0 + 1, 0xffff);
-    jpeg_mem_src(&_info, reinterpret_cast<const unsigned char*>(_bytes.data()),
-                 static_cast<unsigned long>(_bytes.size()));
+    if (_input)
+    {
+        _info.src = _input->source();
+    }
+    else
+    {
+        jpeg_mem_src(&_info, reinterpret_cast<const unsigned char*>(_bytes->data()),
+                     static_cast<unsigned long>(_bytes->size()));
+    }
     return jpeg_read_header(&_info, TRUE) == JPEG_HEADER_OK;
 }
 
@@ -90,6 +107,15 @@ bool JpegDecoder::readRow(JSAMPROW row)
         return false;
     }
     return jpeg_read_scanlines(&_info, &row, 1) == 1;
+}
+
+bool JpegDecoder::skipRows(unsigned int count)
+{
+    if (setjmp(_errors.jump))
+    {
+        return false;
+    }
+    return jpeg_skip_scanlines(&_info, count) == count;
 }
 
 bool JpegDecoder::finish()

@@ -17,16 +17,19 @@ namespace
 
 using Kind = ImageError::Kind;
 
-ImageError damaged(const std::string& name, const std::string& cause)
+} // namespace
+
+ImageError damagedJpeg(const std::string& name, const std::string& cause)
 {
     return ImageError(Kind::Damaged, name,
                       "is a damaged JPEG (" + cause + "); copy it from its source again");
 }
 
 /// libjpeg needs as much as 6 bytes a pixel besides the pixels for progressive files.
-void checkSize(const jpeg_decompress_struct& jpeg, std::uint64_t fileBytes, const std::string& name,
-               const ImageLimits& limits)
+void checkJpegSize(const JpegDecoder& decoder, std::uint64_t fileBytes, const std::string& name,
+                   const ImageLimits& limits)
 {
+    const jpeg_decompress_struct& jpeg = decoder.info();
     constexpr std::uint64_t pixelsPerByte = 1200;
     const std::uint64_t pixels = std::uint64_t(jpeg.image_width) * jpeg.image_height;
     const std::string size =
@@ -45,16 +48,11 @@ void checkSize(const jpeg_decompress_struct& jpeg, std::uint64_t fileBytes, cons
     }
 }
 
-int channelsOf(const jpeg_decompress_struct& jpeg)
-{
-    return jpeg.num_components == 1 ? 1 : 3;
-}
-
-void readHeader(JpegDecoder& decoder, const std::string& name)
+void readJpegHeader(JpegDecoder& decoder, const std::string& name)
 {
     if (!decoder.readHeader())
     {
-        throw damaged(name, decoder.getError());
+        throw damagedJpeg(name, decoder.getError());
     }
     const int components = decoder.info().num_components;
     if (components != 1 && components != 3 && components != 4)
@@ -65,7 +63,6 @@ void readHeader(JpegDecoder& decoder, const std::string& name)
     }
 }
 
-/// CMYK as Adobe stores it, 255 for no ink; others store the ink.
 void convertCmyk(const std::uint8_t* source, int width, bool inkless, std::uint8_t* target)
 {
     for (int x = 0; x < width; ++x, source += 4, target += 3)
@@ -77,6 +74,14 @@ void convertCmyk(const std::uint8_t* source, int width, bool inkless, std::uint8
             target[c] = static_cast<std::uint8_t>((value * black + 127) / 255);
         }
     }
+}
+
+namespace
+{
+
+int channelsOf(const jpeg_decompress_struct& jpeg)
+{
+    return jpeg.num_components == 1 ? 1 : 3;
 }
 
 /// Pulls the rows out of the decoder, as grey or RGB.
@@ -95,7 +100,7 @@ void decodeRows(JpegDecoder& decoder, const std::string& name, const std::atomic
         }
         if (!decoder.readRow(row.data()))
         {
-            throw damaged(name, decoder.getError());
+            throw damagedJpeg(name, decoder.getError());
         }
         if (!rgb.empty())
         {
@@ -118,10 +123,10 @@ bool readJpegInfo(const std::string& head, std::uint64_t fileBytes, const std::s
     }
     if (whole)
     {
-        readHeader(decoder, name);
+        readJpegHeader(decoder, name);
     }
     const jpeg_decompress_struct& jpeg = decoder.info();
-    checkSize(jpeg, fileBytes, name, limits);
+    checkJpegSize(decoder, fileBytes, name, limits);
     const bool turned = isTransposed(exifOrientation(decoder.getExif()));
     info.width = static_cast<int>(turned ? jpeg.image_height : jpeg.image_width);
     info.height = static_cast<int>(turned ? jpeg.image_width : jpeg.image_height);
@@ -139,9 +144,9 @@ DecodedImage readJpegBytes(const std::string& bytes, const std::string& name,
                            const ReadSettings& settings)
 {
     JpegDecoder decoder(bytes);
-    readHeader(decoder, name);
+    readJpegHeader(decoder, name);
     jpeg_decompress_struct& jpeg = decoder.info();
-    checkSize(jpeg, bytes.size(), name, settings.limits);
+    checkJpegSize(decoder, bytes.size(), name, settings.limits);
 
     // Before the scans, as a progressive file may bring another EXIF segment between them.
     const int orientation = exifOrientation(decoder.getExif());
@@ -153,7 +158,7 @@ DecodedImage readJpegBytes(const std::string& bytes, const std::string& name,
                                                       : JCS_RGB;
     if (!decoder.start())
     {
-        throw damaged(name, decoder.getError());
+        throw damagedJpeg(name, decoder.getError());
     }
     const int fullWidth = static_cast<int>(jpeg.image_width);
     const int fullHeight = static_cast<int>(jpeg.image_height);
@@ -187,12 +192,12 @@ DecodedImage readJpegBytes(const std::string& bytes, const std::string& name,
     }
     if (!decoder.finish())
     {
-        throw damaged(name, decoder.getError());
+        throw damagedJpeg(name, decoder.getError());
     }
     image.degraded = decoder.isWarned();
     if (image.degraded)
     {
-        image.warning = damaged(name, decoder.getWarning()).what();
+        image.warning = damagedJpeg(name, decoder.getWarning()).what();
     }
     return image;
 }

@@ -2,9 +2,9 @@
 #include <osgPagedTexture/MakeMipChain.h>
 
 #include <osgPagedTexture/BoxReducer.h>
+#include <osgPagedTexture/LightTables.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -15,40 +15,10 @@ namespace osgPagedTexture
 namespace
 {
 
-/// Light of sRGB values in 1/65535, and back: in the dark, where the curve is steepest, a step is
-/// 1/20 of a code value.
-struct LightTables
-{
-    std::array<std::uint16_t, 256> light{};
-    std::vector<std::uint8_t> code = std::vector<std::uint8_t>(65536);
-
-    LightTables()
-    {
-        for (int i = 0; i < 256; ++i)
-        {
-            const double v = i / 255.0;
-            const double linear = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-            light[i] = static_cast<std::uint16_t>(std::lround(65535.0 * linear));
-        }
-        for (int i = 0; i < 65536; ++i)
-        {
-            const double v = i / 65535.0;
-            const double srgb = v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1.0 / 2.4) - 0.055;
-            code[i] = static_cast<std::uint8_t>(std::lround(255.0 * srgb));
-        }
-    }
-};
-
-const LightTables& lightTables()
-{
-    static const LightTables tables;
-    return tables;
-}
-
 /// Both sides even, no alpha: the case of nearly all textures, 2x2 texels to one.
 template <int Channels> void halveEven(const Pixels& from, bool light, Pixels& to)
 {
-    const LightTables& tables = lightTables();
+    const LightTables& tables = LightTables::get();
     for (int y = 0; y < to.height; ++y)
     {
         const std::uint8_t* low = from.row(2 * y);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/PhotoRows.h>
+
+#include <osgPagedTexture/FileBytes.h>
+#include <osgPagedTexture/ImageFile.h>
+
+#include <cctype>
+#include <cstdio>
+#include <vector>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+/// The numbers of a PNM header: width, height, the highest value. Returns where the pixels start,
+/// 0 where this is none.
+std::size_t parseHeader(const std::string& head, std::int64_t (&numbers)[3])
+{
+    std::size_t at = 2;
+    for (std::int64_t& number : numbers)
+    {
+        while (at < head.size() &&
+               (std::isspace(static_cast<unsigned char>(head[at])) || head[at] == '#'))
+        {
+            at = head[at] == '#' ? head.find('\n', at) : at + 1;
+        }
+        number = 0;
+        for (; at < head.size() && head[at] >= '0' && head[at] <= '9' && number < 1 << 30; ++at)
+        {
+            number = number * 10 + (head[at] - '0');
+        }
+    }
+    const bool closed = at < head.size() && std::isspace(static_cast<unsigned char>(head[at]));
+    return closed && numbers[0] > 0 && numbers[1] > 0 ? at + 1 : 0;
+}
+
+/// Uncompressed pixels, which are only copied.
+class PnmRows : public PhotoRows
+{
+public:
+    PnmRows(const std::string& path, std::size_t place, int channels,
+            const PhotoRowsSettings& settings)
+        : _path(path), _settings(settings), _channels(channels),
+          _row(channels == settings.channels ? 0 : std::size_t(settings.width) * channels),
+          _file(std::fopen(path.c_str(), "rb"), std::fclose)
+    {
+        check(_file && std::fseek(_file.get(), static_cast<long>(place), SEEK_SET) == 0);
+    }
+
+    void read(std::uint8_t* row) override
+    {
+        const std::size_t bytes = std::size_t(_settings.width) * _channels;
+        std::uint8_t* target = _row.empty() ? row : _row.data();
+        check(std::fread(target, 1, bytes, _file.get()) == bytes);
+        if (!_row.empty())
+        {
+            convertRow(target, _channels, _settings, row);
+        }
+    }
+    void skip(int rows) override
+    {
+        check(std::fseek(_file.get(), long(rows) * _settings.width * _channels, SEEK_CUR) == 0);
+    }
+
+private:
+    void check(bool good) const
+    {
+        if (!good)
+        {
+            throw ImageError(ImageError::Kind::Unreadable, _path,
+                             "cannot be read to its end; copy it from its source again");
+        }
+    }
+
+    const std::string _path;
+    const PhotoRowsSettings _settings;
+    const int _channels;
+    std::vector<std::uint8_t> _row; ///< Where pixels are converted.
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> _file;
+};
+
+} // namespace
+
+/// Null where it is not binary PPM or PGM of 8 bits with the size that is expected.
+std::unique_ptr<PhotoRows> openPnmRows(const std::string& path, std::uint64_t fileBytes,
+                                       const PhotoRowsSettings& settings)
+{
+    constexpr std::size_t headBytes = 1024;
+    const std::string head = readFileHead(path, headBytes).bytes;
+    std::int64_t numbers[3];
+    const std::size_t place = parseHeader(head, numbers);
+    const int channels = head.compare(0, 2, "P6") == 0 ? 3 : 1;
+    if (place == 0 || numbers[2] != 255 || numbers[0] != settings.width ||
+        numbers[1] != settings.height ||
+        fileBytes < place + std::uint64_t(numbers[0]) * numbers[1] * channels)
+    {
+        return nullptr;
+    }
+    return std::make_unique<PnmRows>(path, place, channels, settings);
+}
+
+} // namespace osgPagedTexture
