@@ -61,7 +61,8 @@ void findMoves(const AtlasLayout& layout, const ByPath& known, AtlasChanges& cha
 /// Whether other parts of the atlas than before may be covered; then its place counts too.
 bool hasRoom(const AtlasLayout& layout, const Indices& pieces, const AtlasPhoto& now)
 {
-    return std::all_of(pieces.begin(), pieces.end(), [&](std::size_t i)
+    return std::all_of(pieces.begin(), pieces.end(),
+                       [&](std::size_t i)
                        { return fitsInPlace(layout, i, now.width, now.height); });
 }
 

@@ -35,10 +35,10 @@ KeptLevels::KeptLevels(const std::string& path, TileBuilder& builder,
                        const TilePackWriter::Options& options, std::uint64_t maxBytes)
     : _path(path), _builder(builder), _occupancy(occupancy), _background(settings.background),
       _linearLight(settings.linearLight), _channels(std::size_t(settings.channels)),
-      _maxTiles(std::max<std::size_t>(
-          maxBytes / (std::uint64_t(builder.getGrid().getPayload()) *
-                      builder.getGrid().getPayload() * settings.channels),
-          64)),
+      _maxTiles(
+          std::max<std::size_t>(maxBytes / (std::uint64_t(builder.getGrid().getPayload()) *
+                                            builder.getGrid().getPayload() * settings.channels),
+                                64)),
       _grid(gridOf(builder)), _writer(std::make_unique<TilePackWriter>(path, options)),
       _reader(std::make_unique<TilePackReader>(path))
 {
@@ -204,26 +204,28 @@ void KeptLevels::put(const TileKey& key, Tile& tile)
     _writer->put(key, _builder.encode(rows.data(), side, side, true));
 }
 
-void KeptLevels::commit()
+void KeptLevels::putChanged()
 {
-    bool changed = false;
     for (auto& [key, tile] : _tiles)
     {
         if (tile.changed)
         {
             put({key.first, key.second.second, key.second.first}, tile);
-            changed = true;
         }
     }
-    if (changed)
-    {
-        _writer->commit();
-    }
+}
+
+void KeptLevels::commit(const std::string& description)
+{
+    putChanged();
+    _writer->setDescription(description);
+    _writer->commit();
 }
 
 void KeptLevels::makeRoom()
 {
-    commit();
+    putChanged();
+    _writer->commit();
     _reader->refresh();
     _tiles.clear();
 }

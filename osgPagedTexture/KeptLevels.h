@@ -14,8 +14,9 @@
 namespace osgPagedTexture
 {
 
-/// The unencoded pixels of the coarser levels of a store, in a packed store of lossless tiles: reads
-/// and changes them at any place. Level 0 here is TileBuilder::KeptLevel of the store. One thread.
+/// The unencoded pixels of the coarser levels of a store, in a packed store of lossless tiles:
+/// reads and changes them at any place. Level 0 here is TileBuilder::KeptLevel of the store. One
+/// thread.
 class KeptLevels
 {
 public:
@@ -35,8 +36,8 @@ public:
     void read(int level, const PixelRect& area, std::vector<std::uint8_t>& pixels);
     /// Makes the coarser levels from changed pixels of a level, down to the last one.
     void makeCoarser(int level, PixelRect changed);
-    /// Makes what was changed last.
-    void commit();
+    /// Makes what was changed last, and sets the store's description.
+    void commit(const std::string& description);
 
 private:
     struct Tile
@@ -48,8 +49,10 @@ private:
     Tile& tileAt(int level, std::int64_t x, std::int64_t y);
     Tile load(const TileKey& key) const;
     void put(const TileKey& key, Tile& tile);
+    void putChanged();
     void makeRoom();
-    template <typename Visit> void forEachTile(int level, const PixelRect& area, const Visit& visit);
+    template <typename Visit>
+    void forEachTile(int level, const PixelRect& area, const Visit& visit);
 
     const std::string _path;
     TileBuilder& _builder;

@@ -123,7 +123,9 @@ AtlasLayout makeLayout(const BuildConfig& build, Outcome& outcome)
     settings.maxWidth = widestLayout(build);
     if (build.padding >= 0)
         settings.padding = build.padding;
-    return packAtlas(std::move(described.photos), settings);
+    AtlasLayout layout = packAtlas(std::move(described.photos), settings);
+    layout.photoFolder = fs::relative(build.photos, folder).generic_string();
+    return layout;
 }
 
 /// The builder's settings, and which layout they were used with: that of an update must be it.
