@@ -131,6 +131,25 @@ std::string sizeText(const AtlasPhoto& photo)
 
 } // namespace
 
+std::vector<std::string> findPhotosOf(const AtlasLayout& layout, const std::string& folder)
+{
+    std::vector<std::string> paths;
+    for (const AtlasPhoto& photo : layout.photos)
+    {
+        paths.push_back(photo.path);
+    }
+    if (!layout.photoFolder.empty())
+    {
+        const std::filesystem::path inside(layout.photoFolder);
+        for (const std::string& path :
+             findPhotos((std::filesystem::path(folder) / inside).string()))
+        {
+            paths.push_back((inside / path).lexically_normal().generic_string());
+        }
+    }
+    return paths;
+}
+
 bool AtlasChanges::empty() const
 {
     return changed.empty() && added.empty() && removed.empty() && moved.empty() &&

@@ -30,6 +30,11 @@ struct AtlasChanges
     bool empty() const;
 };
 
+/// The photographs of a layout and all that are in its photoFolder, relative to `folder`, that of
+/// the layout's file. Throws TileStoreError.
+OSGPAGEDTEXTURE_EXPORT std::vector<std::string> findPhotosOf(const AtlasLayout& layout,
+                                                             const std::string& folder);
+
 /// Compares a layout with the files `paths`, relative to its `folder`. A file of known size and
 /// time counts as unchanged; of all others the content decides, and with `lookInside` of each one.
 /// Reads with `threads` threads (0: as many as the machine has cores).

@@ -23,25 +23,6 @@ using nlohmann::ordered_json;
     throw TileStoreError(TileStoreError::Kind::Refused, "osgPagedTexture::TileUpdate: " + what);
 }
 
-/// The photographs that there are now, relative to the layout's folder.
-std::vector<std::string> photosNow(const AtlasLayout& layout, const std::string& folder)
-{
-    std::vector<std::string> paths;
-    for (const AtlasPhoto& photo : layout.photos)
-    {
-        paths.push_back(photo.path);
-    }
-    if (!layout.photoFolder.empty())
-    {
-        for (const std::string& path : findPhotos((fs::path(folder) / layout.photoFolder).string()))
-        {
-            paths.push_back(
-                (fs::path(layout.photoFolder) / path).lexically_normal().generic_string());
-        }
-    }
-    return paths;
-}
-
 class Update
 {
 public:
@@ -99,8 +80,17 @@ private:
 
     bool takeChanges()
     {
-        const AtlasChanges changes = findChanges(_layout, _folder, photosNow(_layout, _folder),
-                                                 _settings.lookInside, _settings.threads);
+        AtlasChanges changes = findChanges(_layout, _folder, findPhotosOf(_layout, _folder),
+                                           _settings.lookInside, _settings.threads);
+        if (_settings.keepMissing)
+        {
+            for (const std::string& path : changes.removed)
+            {
+                _report.notes.push_back("photograph '" + path +
+                                        "' is not there; its tiles stay for now");
+            }
+            changes.removed.clear();
+        }
         if (!_layout.photos.empty() && changes.removed.size() >= _layout.photos.size())
         {
             refuse("none of the photographs of '" + _layoutPath +
@@ -114,7 +104,8 @@ private:
         _report.added = changes.added.size();
         _report.removed = changes.removed.size();
         _report.moved = changes.moved.size();
-        _report.notes = applyChanges(_layout, changes);
+        std::vector<std::string> notes = applyChanges(_layout, changes);
+        _report.notes.insert(_report.notes.end(), notes.begin(), notes.end());
         return !changes.empty();
     }
 

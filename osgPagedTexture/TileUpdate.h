@@ -15,6 +15,7 @@ namespace osgPagedTexture
 struct TileUpdateSettings
 {
     bool lookInside = false;  ///< Compares the content of all photographs, whatever their time.
+    bool keepMissing = false; ///< Photographs that are not there are named and keep their tiles.
     unsigned int threads = 0; ///< 0: as many as the machine has cores.
     std::uint64_t maxBytes = std::uint64_t(1) << 30; ///< See TileBuildSettings.
     /// Where more of the atlas than this share has changed, the whole store is built anew.
@@ -28,7 +29,8 @@ struct TileUpdateReport
     std::uint64_t touchedTiles = 0;                             ///< Made again.
     std::uint64_t changedTiles = 0;                             ///< Whose bytes are others.
     std::string rebuilt; ///< Why the whole store was built anew, one line; empty where it was not.
-    std::vector<std::string> notes;    ///< One line for each photograph that lies elsewhere.
+    /// One line for each photograph that lies elsewhere now, or is kept though it is missing.
+    std::vector<std::string> notes;
     std::vector<std::string> failures; ///< One line for each photograph that cannot be read.
 
     bool isNothing() const { return changed + added + removed + moved + touchedTiles == 0; }
