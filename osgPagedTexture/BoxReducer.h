@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/Export.h>
+
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -10,7 +12,7 @@ namespace osgPagedTexture
 
 /// Makes a picture smaller while its rows come in, so that the whole is never held: each texel is
 /// the mean over its area, colours weighted by alpha.
-class BoxReducer
+class OSGPAGEDTEXTURE_EXPORT BoxReducer
 {
 public:
     struct Shape

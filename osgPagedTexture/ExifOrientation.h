@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/Export.h>
 #include <osgPagedTexture/Pixels.h>
 
 #include <string>
@@ -23,7 +24,7 @@ struct Placement
     std::ptrdiff_t rowStep = 0;   ///< To the next stored row.
 };
 
-Placement placementOf(int storedWidth, int storedHeight, int orientation);
+OSGPAGEDTEXTURE_EXPORT Placement placementOf(int storedWidth, int storedHeight, int orientation);
 
 inline bool isTransposed(int orientation)
 {
@@ -31,7 +32,7 @@ inline bool isTransposed(int orientation)
 }
 
 /// Copies stored row `y` to where it is shown.
-void placeRow(const std::uint8_t* row, int storedWidth, int y, const Placement& placement,
-              Pixels& pixels);
+OSGPAGEDTEXTURE_EXPORT void placeRow(const std::uint8_t* row, int storedWidth, int y,
+                                     const Placement& placement, Pixels& pixels);
 
 } // namespace osgPagedTexture

@@ -3,7 +3,7 @@
 
 #include <osgPagedTexture/FileBytes.h>
 #include <osgPagedTexture/JpegFile.h>
-#include <osgPagedTexture/OiioFile.h>
+#include <osgPagedTexture/OiioModule.h>
 
 namespace osgPagedTexture
 {
@@ -15,7 +15,7 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool
     const FileHead head = readFileHead(path, headBytes);
     if (!isJpeg(head.bytes))
     {
-        return readOiioInfo(path, head.fileBytes, limits, lookAtAlpha);
+        return oiioFunctions().readInfo(path, head.fileBytes, limits, lookAtAlpha);
     }
     ImageInfo info;
     if (!readJpegInfo(head.bytes, head.fileBytes, path, limits, info))
@@ -30,7 +30,7 @@ DecodedImage readImageFile(const std::string& path, const ReadSettings& settings
 {
     const FileHead head = readFileHead(path, 2);
     return isJpeg(head.bytes) ? readJpegBytes(readFileBytes(path), path, settings)
-                              : readOiioFile(path, head.fileBytes, settings);
+                              : oiioFunctions().readFile(path, head.fileBytes, settings);
 }
 
 } // namespace osgPagedTexture

@@ -8,7 +8,13 @@
 
 #include <algorithm>
 
-namespace osgPagedTexture
+#ifdef _WIN32
+#define OSGPAGEDTEXTURE_OIIO_ENTRY __declspec(dllexport)
+#else
+#define OSGPAGEDTEXTURE_OIIO_ENTRY __attribute__((visibility("default")))
+#endif
+
+namespace osgPagedTexture::oiio
 {
 
 namespace
@@ -34,8 +40,8 @@ bool isTranslucent(OiioReader& reader)
 
 } // namespace
 
-ImageInfo readOiioInfo(const std::string& path, std::uint64_t fileBytes, const ImageLimits& limits,
-                       bool lookAtAlpha)
+ImageInfo readInfo(const std::string& path, std::uint64_t fileBytes, const ImageLimits& limits,
+                   bool lookAtAlpha)
 {
     OiioReader reader(path, fileBytes, limits);
     const bool turned = isTransposed(reader.orientation());
@@ -49,8 +55,8 @@ ImageInfo readOiioInfo(const std::string& path, std::uint64_t fileBytes, const I
     return info;
 }
 
-DecodedImage readOiioFile(const std::string& path, std::uint64_t fileBytes,
-                          const ReadSettings& settings)
+DecodedImage readFile(const std::string& path, std::uint64_t fileBytes,
+                      const ReadSettings& settings)
 {
     OiioReader reader(path, fileBytes, settings.limits);
     const int fullWidth = reader.spec().width;
@@ -80,4 +86,12 @@ DecodedImage readOiioFile(const std::string& path, std::uint64_t fileBytes,
     return image;
 }
 
-} // namespace osgPagedTexture
+} // namespace osgPagedTexture::oiio
+
+extern "C" OSGPAGEDTEXTURE_OIIO_ENTRY const osgPagedTexture::OiioFunctions*
+osgPagedTexture::osgPagedTextureOiio()
+{
+    static constexpr OiioFunctions functions{oiio::readInfo, oiio::readFile, oiio::openRows,
+                                             oiio::decodeTile, oiio::openWriter};
+    return &functions;
+}

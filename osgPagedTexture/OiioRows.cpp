@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include <osgPagedTexture/PhotoRows.h>
-
+#include <osgPagedTexture/OiioFile.h>
 #include <osgPagedTexture/OiioReader.h>
 
-namespace osgPagedTexture
+namespace osgPagedTexture::oiio
 {
 
 namespace
@@ -53,9 +52,8 @@ private:
 
 } // namespace
 
-/// Null where it has to be read as a whole.
-std::unique_ptr<PhotoRows> openOiioRows(const std::string& path, std::uint64_t fileBytes,
-                                        const PhotoRowsSettings& settings)
+std::unique_ptr<PhotoRows> openRows(const std::string& path, std::uint64_t fileBytes,
+                                    const PhotoRowsSettings& settings)
 {
     ImageLimits limits;
     limits.maxPixels = limits.maxBytes = std::uint64_t(1) << 40; // rows come some at a time
@@ -63,4 +61,4 @@ std::unique_ptr<PhotoRows> openOiioRows(const std::string& path, std::uint64_t f
     return rows->fits() ? std::move(rows) : nullptr;
 }
 
-} // namespace osgPagedTexture
+} // namespace osgPagedTexture::oiio

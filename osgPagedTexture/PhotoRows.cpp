@@ -7,6 +7,7 @@
 #include <osgPagedTexture/JpegDecoder.h>
 #include <osgPagedTexture/JpegFile.h>
 #include <osgPagedTexture/LightTables.h>
+#include <osgPagedTexture/OiioModule.h>
 
 #include <algorithm>
 #include <vector>
@@ -188,7 +189,7 @@ std::unique_ptr<PhotoRows> openPhotoRows(const std::string& path, const PhotoRow
             return rows;
         }
     }
-    if (auto rows = openOiioRows(path, head.fileBytes, settings))
+    if (auto rows = oiioFunctions().openRows(path, head.fileBytes, settings))
     {
         return rows;
     }

@@ -40,16 +40,14 @@ struct PhotoRowsSettings
 std::unique_ptr<PhotoRows> openPhotoRows(const std::string& path,
                                          const PhotoRowsSettings& settings);
 
-/// The kinds of them.
+/// The kinds of them; null where it is not binary PPM or PGM of 8 bits.
 std::unique_ptr<PhotoRows> openJpegRows(const std::string& path, std::uint64_t fileBytes,
                                         const PhotoRowsSettings& settings);
 std::unique_ptr<PhotoRows> openPnmRows(const std::string& path, std::uint64_t fileBytes,
                                        const PhotoRowsSettings& settings);
-std::unique_ptr<PhotoRows> openOiioRows(const std::string& path, std::uint64_t fileBytes,
-                                        const PhotoRowsSettings& settings);
 
 /// Of `channels` (1 to 4) to those of the settings.
-void convertRow(const std::uint8_t* source, int channels, const PhotoRowsSettings& settings,
-                std::uint8_t* row);
+OSGPAGEDTEXTURE_EXPORT void convertRow(const std::uint8_t* source, int channels,
+                                       const PhotoRowsSettings& settings, std::uint8_t* row);
 
 } // namespace osgPagedTexture

@@ -83,7 +83,6 @@ private:
 
 } // namespace
 
-/// Null where it is not binary PPM or PGM of 8 bits with the size that is expected.
 std::unique_ptr<PhotoRows> openPnmRows(const std::string& path, std::uint64_t fileBytes,
                                        const PhotoRowsSettings& settings)
 {

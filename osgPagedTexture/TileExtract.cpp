@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/TileExtract.h>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/strutil.h>
-
 #include <osgPagedTexture/ImageFile.h>
-#include <osgPagedTexture/JpegFile.h>
+#include <osgPagedTexture/OiioModule.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace osgPagedTexture
 {
@@ -22,42 +17,6 @@ using Kind = TileStoreError::Kind;
 [[noreturn]] void fail(Kind kind, const std::string& what)
 {
     throw TileStoreError(kind, "osgPagedTexture::TileStore: " + what);
-}
-
-std::string oneLine(const std::string& text)
-{
-    return OIIO::Strutil::replace(OIIO::Strutil::strip(text), "\n", " ", true);
-}
-
-Pixels decodeByOiio(const std::string& bytes, const std::string& name)
-{
-    const bool dds = bytes.compare(0, 4, "DDS ") == 0;
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    OIIO::ImageSpec config, spec;
-    config.attribute("oiio:UnassociatedAlpha", 1);
-    const auto input = OIIO::ImageInput::create(dds ? "dds" : "png");
-    if (!input || !input->set_ioproxy(&memory) || !input->open("tile", spec, config))
-    {
-        const std::string cause = oneLine(input ? input->geterror() : OIIO::geterror());
-        fail(Kind::Damaged, name + " is no picture (" + cause + "); build the store anew");
-    }
-    // A tile's side is some hundred pixels: more is a damaged header that would take memory.
-    constexpr int maxSide = 1 << 15;
-    if (input->spec().width > maxSide || input->spec().height > maxSide ||
-        input->spec().nchannels > 4)
-    {
-        fail(Kind::Damaged, name + " is no tile; build the store anew");
-    }
-    input->threads(1);
-    Pixels pixels(input->spec().width, input->spec().height, input->spec().nchannels);
-    const auto stride = static_cast<OIIO::stride_t>(pixels.width) * pixels.channels;
-    if (!input->read_image(0, 0, 0, pixels.channels, OIIO::TypeUInt8, pixels.row(pixels.height - 1),
-                           OIIO::AutoStride, -stride))
-    {
-        fail(Kind::Damaged,
-             name + " is damaged (" + oneLine(input->geterror()) + "); build the store anew");
-    }
-    return pixels;
 }
 
 /// Spreads a pixel of 1 to 4 channels to red, green, blue and alpha.
@@ -158,27 +117,6 @@ PixelRect cut(const TileGrid& grid, int level, const PixelRect& region)
 
 } // namespace
 
-Pixels decodeTile(const std::string& bytes, const std::string& name)
-{
-    if (!isJpeg(bytes))
-    {
-        return decodeByOiio(bytes, name);
-    }
-    try
-    {
-        DecodedImage image = readJpegBytes(bytes, name);
-        if (image.degraded)
-        {
-            fail(Kind::Damaged, image.warning);
-        }
-        return std::move(image.pixels);
-    }
-    catch (const ImageError& error)
-    {
-        throw TileStoreError(Kind::Damaged, error.what());
-    }
-}
-
 void readRegion(const TileReader& reader, int level, const PixelRect& region,
                 const ExtractSettings& settings,
                 const std::function<void(const std::uint8_t* row)>& sink)
@@ -203,6 +141,24 @@ void readRegion(const TileReader& reader, int level, const PixelRect& region,
     }
 }
 
+namespace
+{
+
+std::unique_ptr<PictureWriter> openPicture(const std::string& path, int width, int height,
+                                           int channels)
+{
+    try
+    {
+        return oiioFunctions().openWriter(path, width, height, channels);
+    }
+    catch (const ImageError& error) // the module is not there
+    {
+        throw TileStoreError(Kind::Unwritable, error.what());
+    }
+}
+
+} // namespace
+
 void extractRegion(const TileReader& reader, int level, const PixelRect& region,
                    const ExtractSettings& settings, const std::string& path)
 {
@@ -213,49 +169,10 @@ void extractRegion(const TileReader& reader, int level, const PixelRect& region,
                                 std::to_string(area.height) +
                                 " pixels is too large; name a smaller region");
     }
-    OIIO::ImageSpec spec(int(area.width), int(area.height), settings.channels, OIIO::TypeUInt8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    auto output = OIIO::ImageOutput::create(path);
-    const auto check = [&](bool good)
-    {
-        if (!good)
-        {
-            const std::string cause = oneLine(output ? output->geterror() : OIIO::geterror());
-            fail(Kind::Unwritable, "'" + path + "' cannot be written (" + cause +
-                                       "); name a file like region.png where there is room");
-        }
-    };
-    check(output != nullptr);
-    int y = 0;
-    try
-    {
-        readRegion(reader, level, area, settings,
-                   [&](const std::uint8_t* row)
-                   {
-                       // Not before the first tiles are read: no file comes of a damaged store.
-                       check(y > 0 || output->open(path, spec));
-                       check(output->write_scanline(y++, 0, OIIO::TypeUInt8, row));
-                   });
-        check(output->close());
-    }
-    catch (const TileStoreError&)
-    {
-        // Else libpng complains on the terminal about a picture that ends early.
-        const std::vector<std::uint8_t> blank(std::size_t(area.width) * settings.channels);
-        while (y > 0 && y < area.height &&
-               output->write_scanline(y, 0, OIIO::TypeUInt8, blank.data()))
-        {
-            ++y;
-        }
-        output.reset();
-        std::error_code error;
-        if (y > 0)
-        {
-            std::filesystem::remove(path, error);
-        }
-        throw;
-    }
+    const auto picture = openPicture(path, int(area.width), int(area.height), settings.channels);
+    readRegion(reader, level, area, settings,
+               [&](const std::uint8_t* row) { picture->write(row); });
+    picture->finish();
 }
 
 } // namespace osgPagedTexture

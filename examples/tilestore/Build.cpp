@@ -3,11 +3,13 @@
 #include "Progress.h"
 #include "Subcommand.h"
 
+#include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PhotoFolder.h>
 #include <osgPagedTexture/TileBuildText.h>
 #include <osgPagedTexture/TileFolders.h>
 #include <osgPagedTexture/TilePack.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -128,6 +130,23 @@ AtlasLayout makeLayout(const BuildConfig& build, Outcome& outcome)
     return layout;
 }
 
+/// Whether a photograph has alpha that shows. JPEG has none.
+bool isTranslucent(const AtlasLayout& layout, const std::string& folder)
+{
+    const auto translucent = [&](const AtlasPhoto& photo)
+    {
+        try
+        {
+            return readImageInfo(folder + "/" + photo.path).translucent;
+        }
+        catch (const ImageError&) // the builder tells
+        {
+            return false;
+        }
+    };
+    return std::any_of(layout.photos.begin(), layout.photos.end(), translucent);
+}
+
 /// The builder's settings, and which layout they were used with: that of an update must be it.
 std::string describe(const BuildConfig& build, const AtlasLayout& layout)
 {
@@ -226,6 +245,11 @@ int run(const Arguments& arguments)
     outcome.layout = build.makeLayout ? makeLayout(build, outcome) : readAtlasLayout(build.layout);
     if (build.makeLayout)
         writeAtlasLayout(build.layout, outcome.layout);
+    if (!build.channelsGiven && build.settings.format.keepsAlpha() &&
+        isTranslucent(outcome.layout, folderOf(build.layout)))
+    {
+        build.settings.channels = 4;
+    }
     outcome.layoutSeconds = layoutTime.seconds();
     const Stopwatch buildTime;
     buildStore(build, outcome);
