@@ -52,6 +52,15 @@ KeptLevels::KeptLevels(const std::string& path, TileBuilder& builder,
 
 KeptLevels::~KeptLevels() = default;
 
+std::int64_t KeptLevels::rowsAtATime(const TileGrid& store, const TileBuildSettings& settings)
+{
+    const std::int64_t unit = std::int64_t(store.getPayload()) << TileBuilder::KeptLevel;
+    const std::uint64_t rowBytes =
+        std::uint64_t(store.getWidth(TileBuilder::KeptLevel)) * std::uint64_t(settings.channels);
+    const auto rows = std::int64_t(settings.maxBytes / 8 / rowBytes) << TileBuilder::KeptLevel;
+    return std::max(rows / unit, std::int64_t(1)) * unit;
+}
+
 KeptLevels::Tile KeptLevels::load(const TileKey& key) const
 {
     const std::size_t side = std::size_t(_grid.getPayload());
@@ -185,6 +194,29 @@ void KeptLevels::makeCoarser(int level, PixelRect changed)
     }
 }
 
+TileData KeptLevels::makeTile(const TileKey& key)
+{
+    const PixelRect area = _builder.getGrid().getPixels(key);
+    if (!_occupancy.holdsAny(area, key.level))
+    {
+        return {};
+    }
+    std::vector<std::uint8_t> pixels;
+    read(key.level - TileBuilder::KeptLevel, area, pixels);
+    return encode(pixels, int(area.width), int(area.height), false);
+}
+
+TileData KeptLevels::encode(const std::vector<std::uint8_t>& pixels, int width, int height,
+                            bool kept) const
+{
+    std::vector<const std::uint8_t*> rows;
+    for (int y = 0; y < height; ++y)
+    {
+        rows.push_back(pixels.data() + std::size_t(y) * std::size_t(width) * _channels);
+    }
+    return _builder.encode(rows.data(), width, height, kept);
+}
+
 void KeptLevels::put(const TileKey& key, Tile& tile)
 {
     tile.changed = false;
@@ -196,12 +228,7 @@ void KeptLevels::put(const TileKey& key, Tile& tile)
     const int side = _grid.getPayload();
     std::vector<std::uint8_t> pixels;
     read(key.level, _grid.getPixels(key), pixels); // beyond the picture its edge
-    std::vector<const std::uint8_t*> rows;
-    for (int y = 0; y < side; ++y)
-    {
-        rows.push_back(pixels.data() + std::size_t(y) * std::size_t(side) * _channels);
-    }
-    _writer->put(key, _builder.encode(rows.data(), side, side, true));
+    _writer->put(key, encode(pixels, side, side, true));
 }
 
 void KeptLevels::putChanged()

@@ -30,12 +30,18 @@ public:
 
     const TileGrid& getGrid() const { return _grid; }
 
+    /// As many rows of level 0 of a store as make an eighth of the memory in pixels of KeptLevel: a
+    /// multiple of the rows that a tile of it shows.
+    static std::int64_t rowsAtATime(const TileGrid& store, const TileBuildSettings& settings);
+
     /// Sets pixels of a level, `area` inside of it, the top row first.
     void write(int level, const PixelRect& area, const std::uint8_t* pixels);
     /// Gets pixels, where `area` reaches beyond the level those of its edge.
     void read(int level, const PixelRect& area, std::vector<std::uint8_t>& pixels);
     /// Makes the coarser levels from changed pixels of a level, down to the last one.
     void makeCoarser(int level, PixelRect changed);
+    /// A tile of the store, of KeptLevel or coarser, as TileBuilder::build() makes it.
+    TileData makeTile(const TileKey& key);
     /// Makes what was changed last, and sets the store's description.
     void commit(const std::string& description);
 
@@ -49,6 +55,8 @@ private:
     Tile& tileAt(int level, std::int64_t x, std::int64_t y);
     Tile load(const TileKey& key) const;
     void put(const TileKey& key, Tile& tile);
+    TileData encode(const std::vector<std::uint8_t>& pixels, int width, int height,
+                    bool kept) const;
     void putChanged();
     void makeRoom();
     template <typename Visit>

@@ -172,23 +172,6 @@ void TileRefresh::collectCoarse()
     }
 }
 
-TileData TileRefresh::makeCoarse(const TileKey& key)
-{
-    const PixelRect area = _builder.getGrid().getPixels(key);
-    if (!_occupancy.holdsAny(area, key.level))
-    {
-        return {};
-    }
-    std::vector<std::uint8_t> pixels;
-    _kept->read(key.level - TileBuilder::KeptLevel, area, pixels);
-    std::vector<const std::uint8_t*> rows;
-    for (std::int64_t y = 0; y < area.height; ++y)
-    {
-        rows.push_back(pixels.data() + std::size_t(y * area.width) * _origin.settings.channels);
-    }
-    return _builder.encode(rows.data(), int(area.width), int(area.height));
-}
-
 void TileRefresh::refreshCoarse(TileUpdateReport& report)
 {
     // A grown atlas may have levels that were not there.
@@ -203,7 +186,7 @@ void TileRefresh::refreshCoarse(TileUpdateReport& report)
     for (const auto& [level, y, x] : _coarse)
     {
         const TileKey key{level, x, y};
-        put(key, makeCoarse(key), report);
+        put(key, _kept->makeTile(key), report);
     }
     _kept->commit(_origin.text());
 }
@@ -218,11 +201,7 @@ void TileRefresh::run(TileUpdateReport& report)
                                              _origin.settings, _options);
     }
     openWriter();
-    // The pixels of KeptLevel that a part has are held: no more of them than this.
-    constexpr std::int64_t maxPixels = std::int64_t(1) << 30;
-    const TileGrid& grid = _builder.getGrid();
-    const std::int64_t unit = std::int64_t(grid.getPayload()) << TileBuilder::KeptLevel;
-    const std::int64_t rows = std::max(maxPixels / grid.getWidth() / unit, std::int64_t(1)) * unit;
+    const std::int64_t rows = KeptLevels::rowsAtATime(_builder.getGrid(), _origin.settings);
     for (const PixelRect& part : _layout.pending)
     {
         for (std::int64_t y = part.y; y < part.y + part.height;)

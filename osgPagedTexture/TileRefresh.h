@@ -33,7 +33,6 @@ private:
     void refreshCoarse(TileUpdateReport& report);
     void collectCoarse();
     void put(const TileKey& key, const TileData& tile, TileUpdateReport& report);
-    TileData makeCoarse(const TileKey& key);
 
     const std::string _path;
     const AtlasLayout& _layout;

@@ -16,6 +16,7 @@ TileUpdateReport update(const UpdateSample& sample)
 {
     TileUpdateSettings settings;
     settings.threads = 2;
+    settings.pack.durable = false;
     return updateTileStore(sample.store(), settings);
 }
 
@@ -102,6 +103,7 @@ TEST_P(TileUpdate, allPhotographsCanBeUpdatedPieceByPiece)
     }
     TileUpdateSettings settings;
     settings.rebuildShare = 1e9;
+    settings.pack.durable = false;
     EXPECT_EQ(updateTileStore(sample.store(), settings).rebuilt, "");
     EXPECT_TRUE(sample.equalsFullBuild());
 }
@@ -144,6 +146,7 @@ TEST_P(TileUpdate, anAtlasGrowsLevelByLevel)
     const int levels = TilePackReader(sample.store()).getSettings().grid.getLevels();
     TileUpdateSettings settings;
     settings.rebuildShare = 1e9;
+    settings.pack.durable = false;
     for (int i = 0; i < 4; ++i)
     {
         sample.writePhoto("tall" + std::to_string(i) + ".jpg", 200, 500, 900 + unsigned(i));

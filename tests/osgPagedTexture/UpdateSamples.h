@@ -23,6 +23,7 @@ public:
     explicit UpdateSample(std::size_t count, unsigned int seed = 1, const char* format = "jpg")
         : _format(format)
     {
+        std::filesystem::create_directories(photo(""));
         std::mt19937 random(seed);
         for (std::size_t i = 0; i < count; ++i)
         {
@@ -61,6 +62,7 @@ public:
         origin.settings.tileSide = 40;
         origin.settings.border = 4;
         origin.settings.threads = 2;
+        origin.settings.format.compression = 1;
         origin.settings.format.coding =
             _format == "png" ? osgPagedTexture::TileCoding::Png : osgPagedTexture::TileCoding::Jpeg;
         origin.layout = "sample.tiles.layout.json";
