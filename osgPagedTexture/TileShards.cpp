@@ -42,8 +42,8 @@ void checkShard(const TileShard& shard)
 {
     if (shard.count < 1 || shard.count > 9999 || shard.index < 0 || shard.index >= shard.count)
     {
-        refuse("part " + std::to_string(shard.index) + " of " + std::to_string(shard.count) +
-               " is none; parts count from 0, and there are 9999 at most");
+        refuse("part " + std::to_string(shard.index + 1) + " of " + std::to_string(shard.count) +
+               " is none; there are 9999 at most");
     }
 }
 
@@ -216,7 +216,7 @@ private:
 
 std::string TileShard::path(const std::string& storePath) const
 {
-    return storePath + ".shard-" + std::to_string(index) + "-of-" + std::to_string(count);
+    return storePath + ".shard-" + std::to_string(index + 1) + "-of-" + std::to_string(count);
 }
 
 TileBuildReport buildTileShard(const std::string& storePath, const TileShard& shard,
