@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace osgPagedTexture
 {
@@ -102,33 +104,48 @@ AtlasSkyline::AtlasSkyline(std::int64_t width, const std::vector<AtlasCell>& cel
     }
 }
 
-void AtlasSkyline::place(AtlasCell& cell)
+void AtlasSkyline::placeAll(const std::vector<AtlasCell*>& cells)
 {
-    std::int64_t bestY = std::numeric_limits<std::int64_t>::max(), bestWaste = 0;
-    for (std::size_t i = 0; i < _steps.size() && _steps[i].x + cell.width <= _width; ++i)
+    std::set<std::tuple<std::int64_t, std::int64_t, std::size_t>> left; // the last is taken first
+    for (std::size_t i = 0; i < cells.size(); ++i)
     {
-        if (_steps[i].y > bestY)
+        left.insert({cells[i]->width, cells[i]->height, cells.size() - 1 - i});
+    }
+    while (!left.empty())
+    {
+        const AtlasCell room = getHighestRoom();
+        const auto wider = left.lower_bound({room.width + 1, 0, 0});
+        if (wider == left.begin())
         {
+            closeRoom(room);
             continue;
         }
-        std::int64_t y = 0, under = 0, left = cell.width;
-        for (std::size_t k = i; left > 0 && y <= bestY; ++k)
+        AtlasCell& cell = *cells[cells.size() - 1 - std::get<2>(*std::prev(wider))];
+        cell.x = room.x;
+        cell.y = room.y;
+        raise(cell);
+        left.erase(std::prev(wider));
+    }
+}
+
+AtlasCell AtlasSkyline::getHighestRoom() const
+{
+    const auto step = std::min_element(_steps.begin(), _steps.end(),
+                                       [](const Step& a, const Step& b) { return a.y < b.y; });
+    return {step->x, step->y, step->width, 0};
+}
+
+void AtlasSkyline::closeRoom(const AtlasCell& room)
+{
+    std::int64_t next = std::numeric_limits<std::int64_t>::max();
+    for (const Step& step : _steps)
+    {
+        if (step.x + step.width == room.x || step.x == room.right())
         {
-            const std::int64_t width = std::min(_steps[k].width, left);
-            y = std::max(y, _steps[k].y);
-            under += width * _steps[k].y;
-            left -= width;
-        }
-        const std::int64_t waste = y * cell.width - under;
-        if (left == 0 && (y < bestY || (y == bestY && waste < bestWaste)))
-        {
-            bestY = y;
-            bestWaste = waste;
-            cell.x = _steps[i].x;
+            next = std::min(next, step.y);
         }
     }
-    cell.y = bestY;
-    raise(cell);
+    raise({room.x, room.y, room.width, next - room.y});
 }
 
 void AtlasSkyline::raise(const AtlasCell& cell)
@@ -150,21 +167,19 @@ void AtlasSkyline::raise(const AtlasCell& cell)
         _steps[end].x = cell.right();
     }
     const auto at = [&](std::size_t i) { return _steps.begin() + static_cast<std::ptrdiff_t>(i); };
-    const bool joins = first > 0 && _steps[first - 1].y == cell.bottom();
-    if (joins)
+    Step step{cell.x, cell.width, cell.bottom()};
+    if (first > 0 && _steps[first - 1].y == step.y)
     {
-        _steps[first - 1].width += cell.width;
-        _steps.erase(at(first), at(end));
+        --first;
+        step.x = _steps[first].x;
+        step.width += _steps[first].width;
     }
-    else if (end > first)
+    if (end < _steps.size() && _steps[end].y == step.y)
     {
-        _steps[first] = {cell.x, cell.width, cell.bottom()};
-        _steps.erase(at(first + 1), at(end));
+        step.width += _steps[end].width;
+        ++end;
     }
-    else
-    {
-        _steps.insert(at(first), {cell.x, cell.width, cell.bottom()});
-    }
+    _steps.insert(_steps.erase(at(first), at(end)), step);
     // Photographs of wild sizes would make the search long: then what is above is done with.
     constexpr std::size_t maxSteps = 4096;
     if (_steps.size() > maxSteps)

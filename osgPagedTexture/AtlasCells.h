@@ -49,9 +49,10 @@ public:
     /// That of cells which have places.
     AtlasSkyline(std::int64_t width, const std::vector<AtlasCell>& cells);
 
-    /// Gives the cell the highest place below the contour, of those the one that covers the least
-    /// free room, of those the leftmost. It must not be wider than the skyline.
-    void place(AtlasCell& cell);
+    /// Gives all cells places below the contour: each room takes the widest that fits, of those the
+    /// tallest (Burke, Kendall and Whitwell, A New Placement Heuristic for the Orthogonal
+    /// Stock-Cutting Problem, 2004). None may be wider than the skyline.
+    void placeAll(const std::vector<AtlasCell*>& cells);
     std::int64_t getBottom() const { return _bottom; }
 
 private:
@@ -61,6 +62,11 @@ private:
         std::int64_t width;
         std::int64_t y;
     };
+    /// The highest room between two higher steps, as a cell without height. The leftmost of equals.
+    AtlasCell getHighestRoom() const;
+    /// Closes that room where nothing fits.
+    void closeRoom(const AtlasCell& room);
+    /// Places the cell at its x and y.
     void raise(const AtlasCell& cell);
 
     std::vector<Step> _steps;

@@ -47,23 +47,6 @@ void checkPhoto(const AtlasPhoto& photo)
     }
 }
 
-/// The largest first: what comes late fills the room between them. Names decide between equals, so
-/// that the order of the list does not count.
-std::vector<std::size_t> packingOrder(const std::vector<AtlasPhoto>& photos,
-                                      const std::vector<AtlasCell>& cells)
-{
-    std::vector<std::size_t> order(photos.size());
-    std::iota(order.begin(), order.end(), std::size_t(0));
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b)
-              {
-                  const auto key = [&](std::size_t i)
-                  { return std::pair(-cells[i].height, -cells[i].width); };
-                  return key(a) != key(b) ? key(a) < key(b) : photos[a].path < photos[b].path;
-              });
-    return order;
-}
-
 std::vector<AtlasCell> cellsOf(const AtlasLayout& layout, const std::vector<AtlasPhoto>& photos)
 {
     std::vector<AtlasCell> cells;
@@ -75,44 +58,59 @@ std::vector<AtlasCell> cellsOf(const AtlasLayout& layout, const std::vector<Atla
     return cells;
 }
 
-/// Places the cells in a strip of this width and returns its height.
-std::int64_t packStrip(std::vector<AtlasCell>& cells, const std::vector<std::size_t>& order,
-                       std::int64_t width)
+/// By the photographs' names, so that the order of the list does not count.
+std::vector<AtlasCell*> inOrder(std::vector<AtlasCell>& cells,
+                                const std::vector<AtlasPhoto>& photos)
 {
-    AtlasSkyline skyline(width);
+    std::vector<std::size_t> order(photos.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return photos[a].path < photos[b].path; });
+    std::vector<AtlasCell*> ordered;
     for (const std::size_t i : order)
     {
-        skyline.place(cells[i]);
+        ordered.push_back(&cells[i]);
     }
-    return skyline.getBottom();
+    return ordered;
 }
 
-/// The width whose strip is nearest to a square, of some around the root of the area.
-std::int64_t findWidth(std::vector<AtlasCell> cells, const std::vector<std::size_t>& order,
-                       std::int64_t least, std::int64_t most)
+std::vector<AtlasCell*> largestFirst(std::vector<AtlasCell*> cells)
+{
+    std::stable_sort(cells.begin(), cells.end(),
+                     [](const AtlasCell* a, const AtlasCell* b)
+                     { return a->width * a->height > b->width * b->height; });
+    return cells;
+}
+
+/// Places the cells in the strip that is nearest to a square, of several widths around the root of
+/// the area.
+void packSquare(std::vector<AtlasCell>& cells, const std::vector<AtlasPhoto>& photos,
+                std::int64_t least, std::int64_t most)
 {
     double area = 0.0;
     for (const AtlasCell& cell : cells)
     {
         area += double(cell.width) * double(cell.height);
     }
-    const double side = std::sqrt(area);
     // A million photographs fill any width; few of them only some.
     const int tries = int(std::clamp<std::size_t>(200000 / (cells.size() + 1), 1, 64));
-    std::int64_t best = 0, bestSide = std::numeric_limits<std::int64_t>::max();
+    const std::vector<AtlasCell*> ordered = inOrder(cells, photos);
+    std::int64_t bestSide = std::numeric_limits<std::int64_t>::max();
+    std::vector<AtlasCell> best;
     for (int i = 0; i < tries; ++i)
     {
-        const double share = tries > 1 ? 0.9 + 0.6 * i / (tries - 1) : 1.03;
+        const double share = tries > 1 ? 0.98 + 0.3 * i / (tries - 1) : 1.02;
         const std::int64_t width =
-            std::clamp<std::int64_t>(std::llround(side * share), least, most);
-        const std::int64_t longer = std::max(width, packStrip(cells, order, width));
-        if (longer < bestSide)
+            std::clamp<std::int64_t>(std::llround(std::sqrt(area) * share), least, most);
+        AtlasSkyline skyline(width);
+        skyline.placeAll(ordered);
+        if (std::max(width, skyline.getBottom()) < bestSide)
         {
-            best = width;
-            bestSide = longer;
+            bestSide = std::max(width, skyline.getBottom());
+            best = cells;
         }
     }
-    return best;
+    cells.swap(best);
 }
 
 void appendNumber(std::string& text, std::int64_t number)
@@ -206,7 +204,6 @@ AtlasLayout packAtlas(std::vector<AtlasPhoto> photos, const AtlasSettings& setti
     layout.alignmentOffset = settings.alignmentOffset;
     std::for_each(photos.begin(), photos.end(), checkPhoto);
     std::vector<AtlasCell> cells = cellsOf(layout, photos);
-    const std::vector<std::size_t> order = packingOrder(photos, cells);
     std::int64_t widest = 1;
     for (const AtlasCell& cell : cells)
     {
@@ -215,7 +212,7 @@ AtlasLayout packAtlas(std::vector<AtlasPhoto> photos, const AtlasSettings& setti
     const std::int64_t most = settings.maxWidth > 0
                                   ? std::max(unitsIn(layout, settings.maxWidth), widest)
                                   : std::max(unitsIn(layout, TileGrid::MaxSide), widest);
-    packStrip(cells, order, findWidth(cells, order, widest, most));
+    packSquare(cells, photos, widest, most);
     for (std::size_t i = 0; i < photos.size(); ++i)
     {
         moveToCell(layout, photos[i], cells[i].x, cells[i].y);
@@ -235,28 +232,25 @@ void addPhotos(AtlasLayout& layout, std::vector<AtlasPhoto> photos)
     {
         width = std::max(width, cell.width);
     }
-    const std::vector<std::size_t> order = packingOrder(photos, added);
     const std::size_t tries = std::clamp<std::size_t>(4000000 / (photos.size() + 1), 64, 100000);
     // The last cells of rows and columns may begin where the atlas leaves less than their units.
     const int rest = layout.alignment - 1;
     AtlasHoles holes(unitsIn(layout, layout.width + rest), unitsIn(layout, layout.height + rest),
                      cells);
-    std::vector<std::size_t> below;
-    for (const std::size_t i : order)
+    std::vector<AtlasCell*> below;
+    for (AtlasCell* const cell : largestFirst(inOrder(added, photos)))
     {
-        const auto isInside = [&](const AtlasCell& cell)
+        AtlasPhoto& photo = photos[static_cast<std::size_t>(cell - added.data())];
+        const auto isInside = [&](const AtlasCell& place)
         {
-            moveToCell(layout, photos[i], cell.x, cell.y);
-            const PixelRect place = photos[i].getPlace();
-            return place.x + place.width <= layout.width && place.y + place.height <= layout.height;
+            moveToCell(layout, photo, place.x, place.y);
+            const PixelRect pixels = photo.getPlace();
+            return pixels.x + pixels.width <= layout.width &&
+                   pixels.y + pixels.height <= layout.height;
         };
-        holes.place(added[i], tries, isInside) ? cells.push_back(added[i]) : below.push_back(i);
+        holes.place(*cell, tries, isInside) ? cells.push_back(*cell) : below.push_back(cell);
     }
-    AtlasSkyline skyline(width, cells);
-    for (const std::size_t i : below)
-    {
-        skyline.place(added[i]);
-    }
+    AtlasSkyline(width, cells).placeAll(below);
     for (std::size_t i = 0; i < photos.size(); ++i)
     {
         moveToCell(layout, photos[i], added[i].x, added[i].y);

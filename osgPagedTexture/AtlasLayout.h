@@ -5,6 +5,7 @@
 #include <osgPagedTexture/TileGrid.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,10 @@ struct AtlasLayout
     int alignmentOffset = 0;
     std::vector<AtlasPhoto> photos;
 
+    /// Where photographs that are added later are looked for, relative to the folder of the
+    /// layout's file; empty: nowhere.
+    std::string photoFolder;
+
     /// Parts of the atlas of which a tile store made from an earlier state may hold other pixels:
     /// what an update has still to do. Outside of the atlas they count for nothing.
     std::vector<PixelRect> pending;
@@ -110,6 +115,20 @@ OSGPAGEDTEXTURE_EXPORT void writeAtlasLayout(const std::string& path, const Atla
 
 /// Reads and checks it. Throws TileStoreError, which names the file and what is wrong in it.
 OSGPAGEDTEXTURE_EXPORT AtlasLayout readAtlasLayout(const std::string& path);
+
+/// The right to change a layout's file and what is made of it, held until the end of the object or
+/// of the process.
+class OSGPAGEDTEXTURE_EXPORT AtlasLock
+{
+public:
+    /// Throws TileStoreError::Kind::Busy where another process holds it for longer than this.
+    explicit AtlasLock(const std::string& layoutPath, double waitSeconds = 0.0);
+    ~AtlasLock();
+
+private:
+    struct Content;
+    std::unique_ptr<Content> _content;
+};
 
 /// Reads a photograph's header, and its whole file for the hash. `folder` is that of the layout's
 /// file; nothing but `path` goes into the result. Throws ImageError.

@@ -74,6 +74,10 @@ std::string headOf(const AtlasLayout& layout)
     number("padding", layout.padding);
     number("alignment", layout.alignment);
     number("alignmentOffset", layout.alignmentOffset);
+    if (!layout.photoFolder.empty())
+    {
+        text += "\"photoFolder\": " + json(layout.photoFolder).dump() + ",\n";
+    }
     if (!layout.pending.empty() || !layout.pendingSince.empty())
     {
         text += "\"pending\": " + toJson(layout.pending).dump() + ",\n";
@@ -217,6 +221,7 @@ void readHead(const std::string& path, const json& object, AtlasLayout& layout)
     layout.padding = int(members.number("padding", 0, 65536));
     layout.alignment = int(members.number("alignment", 1, 4096));
     layout.alignmentOffset = int(members.number("alignmentOffset", 0, layout.alignment - 1));
+    layout.photoFolder = members.has("photoFolder") ? members.word("photoFolder") : "";
     layout.pending = members.rects("pending");
     layout.pendingSince = members.has("pendingSince") ? members.word("pendingSince") : "";
     if (!object.contains("photographs") || !object["photographs"].is_array())
@@ -234,6 +239,18 @@ std::string readAll(const std::string& path)
 }
 
 } // namespace
+
+struct AtlasLock::Content : StoreLock
+{
+    using StoreLock::StoreLock;
+};
+
+AtlasLock::AtlasLock(const std::string& layoutPath, double waitSeconds)
+    : _content(std::make_unique<Content>(layoutPath, waitSeconds))
+{
+}
+
+AtlasLock::~AtlasLock() = default;
 
 void writeAtlasLayout(const std::string& path, const AtlasLayout& layout)
 {

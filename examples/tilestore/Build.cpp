@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "BuildConfig.h"
+#include "BuildShard.h"
 #include "Progress.h"
 #include "Subcommand.h"
 
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PhotoFolder.h>
-#include <osgPagedTexture/TileBuildText.h>
 #include <osgPagedTexture/TileFolders.h>
 #include <osgPagedTexture/TilePack.h>
 
@@ -60,6 +60,8 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
   --threads N            [threads] default: as many as the machine has cores
   --not-updatable        [notUpdatable] writes no STORE.mips
   --no-sync              [noSync] does not wait for the disk
+  --shard I/N            builds part I of N, 1 to N, for N processes on any machines that share the
+                         folder; then: osgtilestore merge STORE
   --json                 what was made
   --help                 this text
 
@@ -105,7 +107,9 @@ std::int64_t widestLayout(const BuildConfig& build)
     return build.maxWidth > 0 ? std::min(build.maxWidth, width) : width;
 }
 
-AtlasLayout makeLayout(const BuildConfig& build, Outcome& outcome)
+} // namespace
+
+AtlasLayout makeLayout(const BuildConfig& build, std::vector<std::string>& failures)
 {
     const std::string folder = folderOf(build.layout);
     std::vector<std::string> paths;
@@ -119,15 +123,17 @@ AtlasLayout makeLayout(const BuildConfig& build, Outcome& outcome)
                                                [&](std::uint64_t done, std::uint64_t total)
                                                { progress.show(done, total); });
     for (const DescribedPhotos::Failure& failure : described.failures)
-        outcome.failures.push_back(failure.cause);
+        failures.push_back(failure.cause);
     if (described.photos.empty())
-        throw std::runtime_error(outcome.failures.front() + "; no photograph is left");
+        throw std::runtime_error(failures.front() + "; no photograph is left");
     AtlasSettings settings =
         AtlasSettings::forTiles(build.settings.tileSide, build.settings.border);
     settings.maxWidth = widestLayout(build);
     if (build.padding >= 0)
         settings.padding = build.padding;
-    return packAtlas(std::move(described.photos), settings);
+    AtlasLayout layout = packAtlas(std::move(described.photos), settings);
+    layout.photoFolder = fs::relative(build.photos, folder).generic_string();
+    return layout;
 }
 
 /// Whether a photograph has alpha that shows. JPEG has none.
@@ -147,14 +153,13 @@ bool isTranslucent(const AtlasLayout& layout, const std::string& folder)
     return std::any_of(layout.photos.begin(), layout.photos.end(), translucent);
 }
 
-/// The builder's settings, and which layout they were used with: that of an update must be it.
-std::string describe(const BuildConfig& build, const AtlasLayout& layout)
+TileStoreOrigin originOf(const BuildConfig& build, const AtlasLayout& layout)
 {
-    Json text = Json::parse(describeBuild(build.settings));
-    text["layout"] = fs::path(build.layout).filename().string();
-    text["layoutHash"] = layout.getContentHash();
-    return text.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return {build.settings, fs::path(build.layout).filename().string(), layout.getContentHash()};
 }
+
+namespace
+{
 
 std::unique_ptr<TileWriter> openWriter(const BuildConfig& build, const std::string& path,
                                        const TileStoreSettings& settings)
@@ -176,7 +181,7 @@ void buildStore(const BuildConfig& build, Outcome& outcome)
     TileStoreSettings& settings = outcome.settings;
     settings.grid = builder.getGrid();
     settings.format = build.settings.format.extension();
-    settings.description = describe(build, outcome.layout);
+    settings.description = originOf(build, outcome.layout).text();
     TileStoreSettings keptSettings;
     std::unique_ptr<TileWriter> kept;
     const std::string keptPath = build.store + ".mips";
@@ -237,12 +242,22 @@ void printText(const Json& json)
                 json["layoutSeconds"].get<double>(), json["buildSeconds"].get<double>());
 }
 
+OptionList withShard(OptionList options)
+{
+    options.push_back({"--shard"});
+    return options;
+}
+
 int run(const Arguments& arguments)
 {
     BuildConfig build = readBuildConfig(arguments);
+    if (arguments.has("--shard"))
+        return runShard(build, arguments);
+    const AtlasLock lock(build.layout);
     Outcome outcome;
     const Stopwatch layoutTime;
-    outcome.layout = build.makeLayout ? makeLayout(build, outcome) : readAtlasLayout(build.layout);
+    outcome.layout =
+        build.makeLayout ? makeLayout(build, outcome.failures) : readAtlasLayout(build.layout);
     if (build.makeLayout)
         writeAtlasLayout(build.layout, outcome.layout);
     if (!build.channelsGiven && build.settings.format.keepsAlpha() &&
@@ -267,6 +282,7 @@ int run(const Arguments& arguments)
 
 } // namespace
 
-const Subcommand BuildCommand{"build", "a store from photographs", Help, buildOptions(), run};
+const Subcommand BuildCommand{"build", "a store from photographs", Help, withShard(buildOptions()),
+                              run};
 
 } // namespace tilestore

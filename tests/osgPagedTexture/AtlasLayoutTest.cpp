@@ -119,11 +119,12 @@ TEST(AtlasLayout, anAtlasIsAboutSquareAndWellFilled)
 {
     AtlasSettings settings;
     settings.padding = 4;
-    for (const std::size_t count : {62, 500, 5000})
+    // Of such photographs' cells 94 % are pixels, the rest is padding and alignment.
+    for (const auto& [count, share] :
+         {std::pair(62, 0.85), std::pair(500, 0.88), std::pair(5000, 0.91)})
     {
         const AtlasLayout layout = packAtlas(randomPhotos(count, 7), settings);
-        // Of such photographs' own cells 93 to 97 % are pixels: the rest is padding and alignment.
-        EXPECT_GT(occupiedShare(layout), 0.75) << count;
+        EXPECT_GT(occupiedShare(layout), share) << count;
         EXPECT_LT(double(layout.width) / double(layout.height), 1.25) << count;
         EXPECT_GT(double(layout.width) / double(layout.height), 0.8) << count;
     }

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include <support/ChildProcess.h>
+#include <support/TemporaryFolder.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+support::ProcessResult run(const std::vector<std::string>& words)
+{
+    support::ChildProcess process;
+    process.arguments = {OSGKITS_OSGTILESTORE};
+    process.arguments.insert(process.arguments.end(), words.begin(), words.end());
+    return process.run();
+}
+
+std::string bytesOf(const std::string& path)
+{
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder of photographs, and a store of them.
+class Photographs
+{
+public:
+    Photographs()
+    {
+        fs::create_directories(_folder.file("photos/north"));
+        for (int i = 0; i < 12; ++i)
+        {
+            write(std::to_string(i), i);
+        }
+        write("north/1", 77);
+    }
+    std::string photos() const { return _folder.file("photos"); }
+    std::string photo(const std::string& name) const { return photos() + "/" + name + ".ppm"; }
+    std::string store() const { return _folder.file("photos.tiles"); }
+    void write(const std::string& name, int seed) const
+    {
+        std::ofstream file(photo(name), std::ios::binary);
+        file << "P6\n120 90\n255\n";
+        for (int i = 0; i < 120 * 90 * 3; ++i)
+        {
+            file.put(char((i * (seed + 3) + (i >> 8) * seed) % 251));
+        }
+    }
+    support::ProcessResult build(const std::string& store,
+                                 const std::vector<std::string>& more = {}) const
+    {
+        std::vector<std::string> words{"build",       photos(), "--store",  store, "--json",
+                                       "--tile-side", "40",     "--border", "4"};
+        words.insert(words.end(), more.begin(), more.end());
+        return run(words);
+    }
+
+private:
+    support::TemporaryFolder _folder;
+};
+
+TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
+{
+    const Photographs sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    auto result = run({"update", sample.store(), "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_EQ(json::parse(result.output)["touchedTiles"], 0);
+    sample.write("north/1", 5);
+    result = run({"update", sample.store(), "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json done = json::parse(result.output);
+    EXPECT_EQ(done["changed"], 1);
+    EXPECT_EQ(done["rebuilt"], "");
+    EXPECT_GT(done["changedTiles"], 4);
+    EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
+    EXPECT_EQ(run({"compact", sample.store()}).exitCode, 0);
+    const std::string updated = bytesOf(sample.store());
+    ASSERT_EQ(run({"build", sample.store() + ".layout.json", "--tile-side", "40", "--border", "4",
+                   "--store", sample.store()})
+                  .exitCode,
+              0);
+    EXPECT_EQ(bytesOf(sample.store()), updated);
+}
+
+TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)
+{
+    const Photographs sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    std::ofstream(sample.photo("3")) << "nothing";
+    const auto result = run({"update", sample.store()});
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_NE(result.errors.find("3.ppm"), std::string::npos) << result.errors;
+    EXPECT_EQ(run({"update", sample.photo("3")}).exitCode, 1) << "no store";
+    EXPECT_EQ(run({"update"}).exitCode, 2);
+}
+
+TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
+{
+    const Photographs sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    const std::string whole = bytesOf(sample.store());
+    fs::remove(sample.store());
+    fs::remove(sample.store() + ".layout.json");
+    std::vector<std::thread> processes;
+    std::vector<int> codes(3, -1);
+    for (int i = 0; i < 3; ++i)
+    {
+        processes.emplace_back(
+            [&, i]
+            {
+                codes[std::size_t(i)] =
+                    sample.build(sample.store(), {"--shard", std::to_string(i + 1) + "/3"})
+                        .exitCode;
+            });
+    }
+    for (std::thread& each : processes)
+    {
+        each.join();
+    }
+    EXPECT_EQ(codes, std::vector<int>(3, 0));
+    const auto merged = run({"merge", sample.store(), "--json"});
+    ASSERT_EQ(merged.exitCode, 0) << merged.errors;
+    EXPECT_EQ(json::parse(merged.output)["shards"], 3);
+    EXPECT_EQ(bytesOf(sample.store()), whole);
+    EXPECT_EQ(run({"merge", sample.store()}).exitCode, 1) << "no parts are left";
+    for (const char* wrong : {"4/3", "0/3", "3", "1/x"})
+    {
+        EXPECT_EQ(sample.build(sample.store(), {"--shard", wrong}).exitCode, 2) << wrong;
+    }
+}
+
+TEST(OsgTileStoreUpdate, aWatchUpdatesWhatIsSavedAndEndsWhenAsked)
+{
+    const Photographs sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    const pid_t watch = fork();
+    if (watch == 0)
+    {
+        execl(OSGKITS_OSGTILESTORE, "osgtilestore", "update", "--watch", sample.store().c_str(),
+              nullptr);
+        _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const auto size = [&] { return fs::file_size(sample.store()); };
+    for (int round = 0; round < 2; ++round)
+    {
+        const auto before = size();
+        sample.write("5", 40 + round);
+        // Two looks, a second apart, and the update; the rest is for a busy machine.
+        for (int wait = 0; wait < 300 && size() == before; ++wait)
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        EXPECT_NE(size(), before) << round;
+    }
+    kill(watch, SIGTERM);
+    int status = 0;
+    waitpid(watch, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
+    EXPECT_EQ(run({"update", sample.store()}).exitCode, 0);
+}
+
+} // namespace
