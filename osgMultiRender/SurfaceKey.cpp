@@ -155,8 +155,8 @@ bool SurfaceKey::usesNormals() const
 {
     if (lighting != LightingMode::Off)
         return true;
-    for (const TextureKey& texture : textures)
-        if (texture.target && texture.generated && texture.generation >= TextureKey::SphereMap)
+    for (const TextureKey& unit : textures)
+        if (unit.target && unit.generated && unit.generation >= TextureKey::SphereMap)
             return true;
     return false;
 }
@@ -165,9 +165,9 @@ bool SurfaceKey::usesEyePosition() const
 {
     if (lighting != LightingMode::Off || (fog && !fogCoordinate) || clip)
         return true;
-    for (const TextureKey& texture : textures)
-        if (texture.target && texture.generated && texture.generation != TextureKey::ObjectLinear &&
-            texture.generation != TextureKey::NormalMap)
+    for (const TextureKey& unit : textures)
+        if (unit.target && unit.generated && unit.generation != TextureKey::ObjectLinear &&
+            unit.generation != TextureKey::NormalMap)
             return true;
     return false;
 }

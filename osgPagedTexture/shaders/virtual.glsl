@@ -135,7 +135,7 @@ vec4 osgPagedTexture_mixed(osgPagedTexture_Grid grid, sampler2D own, vec2 coord,
     float since = uintBitsToFloat(
         osgPagedTexture_word(slot % width, osgPagedTexture_slots.z + slot / width));
     float faded = clamp((osgPagedTexture_time.x - since) * osgPagedTexture_time.y, 0.0, 1.0);
-    level = clamp(level, float(entry >> 24) + 1.0 - faded, max(level, float(grid.last)));
+    level = min(max(level, float(entry >> 24) + 1.0 - faded), float(grid.last));
     int finer = int(level);
     if (finer != int(entry >> 24))
         entry = osgPagedTexture_entry(grid, place, finer);

@@ -7,9 +7,8 @@ vec4 osgmr_sample(int unit, sampler2D own, vec2 coord)
     vec2 dx = dFdx(coord), dy = dFdy(coord);
     osgPagedTexture_footprint(grid, dx, dy, along, taps, lod);
     // What is coarser than a single page is the texture's own picture, which is that page.
-    vec4 beyond = textureGrad(own, coord, dx, dy);
     if (lod >= float(grid.last))
-        return beyond;
+        return textureGrad(own, coord, dx, dy);
     if (taps == 1)
         return osgPagedTexture_mixed(grid, own, coord, lod);
     vec4 sum = vec4(0.0);

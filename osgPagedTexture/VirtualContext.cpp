@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/VirtualContext.h>
+
+#include <osgPagedTexture/ContextPace.h>
+#include <osgPagedTexture/ThreadClock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+/// Views that were not drawn for so many draws of others are gone.
+constexpr unsigned int usesUnused = 256;
+
+/// Of all contexts and scenes: a pager is shared by contexts.
+std::atomic<unsigned int> nextView{0};
+
+} // namespace
+
+SlotGrid SlotGrid::fit(std::uint64_t bytes, std::uint64_t pageBytes, int side, int maxSide)
+{
+    SlotGrid grid;
+    grid.side = side;
+    const int most = std::max(1, maxSide / side);
+    const std::uint64_t wanted = std::clamp<std::uint64_t>(
+        bytes / std::max<std::uint64_t>(1, pageBytes), 1, std::uint64_t(most) * std::uint64_t(most));
+    grid.columns = std::min(most, int(std::ceil(std::sqrt(double(wanted)))));
+    grid.rows = std::clamp(int(wanted / std::uint64_t(grid.columns)), 1, most);
+    return grid;
+}
+
+VirtualContext::VirtualContext(unsigned int contextID, std::shared_ptr<VirtualPager> pager,
+                               const SlotGrid& slots)
+    : osg::Referenced(true), _contextID(contextID), _pager(std::move(pager)), _slots(slots),
+      _tables(slots.count()),
+      _pages(new UploadTexture(UploadTexture::formatOf(_pager->getSettings().format),
+                               slots.columns * slots.side, slots.rows * slots.side)),
+      _stateSet(new osg::StateSet)
+{
+    _stateSet->setTextureAttribute(PagesUnit, _pages);
+}
+
+VirtualContext::~VirtualContext()
+{
+    _pager->removeContext(_contextID);
+    for (const auto& each : _views)
+        _pager->removeView(each.second.number);
+}
+
+VirtualContext::View& VirtualContext::viewOf(const osg::Camera* camera)
+{
+    ++_uses;
+    View& view = _views[camera];
+    view.lastUse = _uses;
+    if (!view.feedback)
+    {
+        view.feedback = std::make_unique<VirtualFeedback>(_contextID);
+        view.number = nextView++;
+    }
+    for (auto each = _views.begin(); each != _views.end();)
+        if (each->second.lastUse + usesUnused < _uses)
+        {
+            _pager->removeView(each->second.number);
+            each = _views.erase(each);
+        }
+        else
+            ++each;
+    return view;
+}
+
+bool VirtualContext::upload(osg::State& state, double milliseconds, double seconds)
+{
+    UploadPace& pace = ContextPace::of(state).begin(state, milliseconds);
+    _lastUploaded = 0;
+    _lastPages = 0;
+    bool isComplete = false;
+    double start = threadMilliseconds();
+    for (std::uint64_t piece = pace.piece(); piece > 0 && !isComplete; piece = pace.piece())
+    {
+        const PageUploads uploads = _pager->takeUploads(_contextID, piece);
+        apply(state, uploads, seconds);
+        isComplete = uploads.isComplete;
+        const double now = threadMilliseconds();
+        pace.took(uploads.bytes, now - start);
+        start = now;
+    }
+    _tables.upload(state);
+    _stateSet->setTextureAttribute(TableUnit, _tables.getTexture());
+    return isComplete;
+}
+
+void VirtualContext::apply(osg::State& state, const PageUploads& uploads, double seconds)
+{
+    for (const PageUpload& page : uploads.pages)
+    {
+        const int x = page.slot % _slots.columns, y = page.slot / _slots.columns;
+        _pages->upload(state, x * _slots.side, y * _slots.side, _slots.side, _slots.side,
+                       page.texels->data(), page.texels->size());
+        _tables.setTime(page.slot, page.isRefresh ? -1e9f : float(seconds));
+        if (!page.isRefresh)
+            _lastArrival = seconds;
+    }
+    for (const TablePatch& patch : uploads.tables)
+    {
+        if (_known.insert(patch.texture).second)
+            _tables.add(patch.texture, _pager->getGrid(patch.texture));
+        _tables.apply(patch);
+    }
+    _lastUploaded += uploads.bytes;
+    _lastPages += uploads.pages.size();
+}
+
+void VirtualContext::releaseGLObjects(osg::State* state)
+{
+    _pages->releaseGLObjects(state);
+    if (_tables.getTexture())
+        _tables.getTexture()->releaseGLObjects(state);
+    for (auto& each : _views)
+        each.second.feedback->releaseGLObjects(state);
+}
+
+} // namespace osgPagedTexture
