@@ -19,15 +19,14 @@ class OSGPAGEDTEXTURE_EXPORT PageCache
 public:
     struct Statistics
     {
-        std::uint64_t hits = 0;
-        std::uint64_t misses = 0;
+        std::uint64_t hits = 0; ///< Pages found that had been found before.
         std::uint64_t bytes = 0;
         std::size_t pages = 0;
     };
 
     explicit PageCache(std::uint64_t maxBytes) : _maxBytes(maxBytes) {}
 
-    /// Null where it is not there. Counts as a hit or a miss.
+    /// Null where it is not there. Counts as use.
     const LoadedPage* find(const PageVersion& page);
 
     /// The same without counting as use.
@@ -37,7 +36,10 @@ public:
     /// kept.
     void put(const PageVersion& page, const LoadedPage& loaded);
 
-    /// Gives each page another name, or removes it where `rename` returns false.
+    void remove(PageVersion page);
+
+    /// Gives each page another name, or removes it where `rename` returns false. What has
+    /// the other name already goes.
     void renameAll(const std::function<bool(PageVersion& page)>& rename);
 
     const Statistics& getStatistics() const { return _statistics; }
@@ -47,8 +49,8 @@ private:
     {
         PageVersion page;
         LoadedPage loaded;
+        bool isUsed = false;
     };
-    void dropLast();
 
     const std::uint64_t _maxBytes;
     std::list<Entry> _entries; ///< Last used first.

@@ -35,16 +35,12 @@ public:
     void need(int slot, std::uint64_t time);
 
     /// A slot for a page that has none: a free one, else the one whose page was needed longest
-    /// ago, which loses it. None where all are pinned or needed at `time`. The page counts as
+    /// ago, which loses it. None where all are needed at `time`. The page counts as
     /// needed at `time`.
     int take(const PageVersion& page, std::uint64_t time);
 
-    /// Whether take() would find a slot.
-    bool hasRoom(std::uint64_t time) const;
-
-    /// A pinned page stays until unpin() or free().
-    void pin(int slot);
-    void unpin(int slot);
+    /// How many pages could take() slots now. In time that grows with what may go.
+    int countRoom(std::uint64_t time) const;
 
     /// The slot has no page any more.
     void free(int slot);
@@ -60,7 +56,6 @@ private:
         int before = None; ///< In the list of what may go, the longest unneeded one first.
         int after = None;
         bool used = false;
-        bool pinned = false;
     };
     void link(int slot);
     void unlink(int slot);

@@ -57,8 +57,9 @@ public:
     /// covers, and that had nothing finer, are found there too.
     void map(const PageKey& page, int slot);
 
-    /// The page is no longer there: its parent's content takes its place.
-    void unmap(const PageKey& page);
+    /// The page is no longer in that slot: what it covers is found where its parent is. Does
+    /// nothing where the page is in another slot.
+    void unmap(const PageKey& page, int slot);
 
     /// Takes all away, and the finer levels with them.
     void clear();
@@ -83,10 +84,9 @@ public:
 private:
     void arrange(int finest);
     void deepen(int finest);
-    void replace(const PageKey& page, std::uint32_t entry,
-                 bool (*takes)(std::uint32_t old, std::uint32_t removed, std::uint32_t entry),
-                 std::uint32_t removed);
+    template <class Change> void forCovered(const PageKey& page, const Change& change);
     void touch(const TableRect& rect);
+    bool contains(const PageKey& page) const;
     std::uint32_t& entryAt(int level, int x, int y);
 
     TileGrid _grid;

@@ -15,7 +15,7 @@ namespace osgPagedTexture
 /// left, y from the TOP. A texel (s, t) of level 0, from the top left corner of the atlas, is at
 /// (s, t) / 2^level of a level, also where a level's size was rounded up; its page is that over
 /// the payload, rounded down.
-struct PageKey
+struct OSGPAGEDTEXTURE_EXPORT PageKey
 {
     std::uint32_t texture = 0;
     std::int32_t level = 0;
