@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/VirtualContext.h>
 
+#include <osgPagedTexture/BlockEncoder.h>
 #include <osgPagedTexture/ContextPace.h>
 #include <osgPagedTexture/ThreadClock.h>
 
@@ -73,6 +74,16 @@ VirtualContext::View& VirtualContext::viewOf(const osg::Camera* camera)
     return view;
 }
 
+void VirtualContext::add(std::uint32_t number, const VirtualTexture& texture)
+{
+    const auto [found, isNew] = _shown.try_emplace(number);
+    found->second.textures.insert(&texture);
+    if (!isNew)
+        return;
+    found->second.grid = _pager->getGrid(number);
+    _tables.add(number, found->second.grid);
+}
+
 bool VirtualContext::upload(osg::State& state, double milliseconds, double seconds)
 {
     UploadPace& pace = ContextPace::of(state).begin(state, milliseconds);
@@ -89,6 +100,7 @@ bool VirtualContext::upload(osg::State& state, double milliseconds, double secon
         pace.took(uploads.bytes, now - start);
         start = now;
     }
+    showCoarsest(state);
     _tables.upload(state);
     _stateSet->setTextureAttribute(TableUnit, _tables.getTexture());
     return isComplete;
@@ -104,15 +116,61 @@ void VirtualContext::apply(osg::State& state, const PageUploads& uploads, double
         _tables.setTime(page.slot, page.isRefresh ? -1e9f : float(seconds));
         if (!page.isRefresh)
             _lastArrival = seconds;
+        const auto shown = _shown.find(page.page.texture);
+        if (shown != _shown.end() && page.page.level == pageLevels(shown->second.grid) - 1)
+            _coarsest[page.slot] = page.texels;
+        else
+            _coarsest.erase(page.slot);
     }
     for (const TablePatch& patch : uploads.tables)
     {
-        if (_known.insert(patch.texture).second)
-            _tables.add(patch.texture, _pager->getGrid(patch.texture));
+        if (_shown.find(patch.texture) == _shown.end())
+        {
+            const TileGrid grid = _pager->getGrid(patch.texture);
+            _shown[patch.texture].grid = grid;
+            _tables.add(patch.texture, grid);
+        }
         _tables.apply(patch);
     }
     _lastUploaded += uploads.bytes;
     _lastPages += uploads.pages.size();
+}
+
+/// What is coarser than a single page is the texture's image: it goes with the tables to another
+/// state of the store.
+void VirtualContext::showCoarsest(osg::State& state)
+{
+    for (auto& [number, shown] : _shown)
+    {
+        const std::uint32_t entry = _tables.coarsestOf(number);
+        const auto found =
+            entry == PageEntry::Empty ? _coarsest.end() : _coarsest.find(PageEntry::slotOf(entry));
+        if (found == _coarsest.end() || found->second == shown.coarsest)
+            continue;
+        // The first one is what the image was made of.
+        const bool isOther = shown.coarsest && *shown.coarsest != *found->second;
+        shown.coarsest = found->second;
+        for (const osg::observer_ptr<const VirtualTexture>& each : shown.textures)
+            if (osg::ref_ptr<const VirtualTexture> texture; isOther && each.lock(texture))
+                texture->showPicture(state, pictureOf(number, *shown.coarsest));
+    }
+}
+
+Pixels VirtualContext::pictureOf(std::uint32_t number, const PageTexels& texels) const
+{
+    const TileGrid& grid = _shown.at(number).grid;
+    const BlockFormat format = _pager->getSettings().format;
+    const int side = _slots.side, border = grid.getBorder(), last = pageLevels(grid) - 1;
+    Pixels page(side, side, 4);
+    if (format == BlockFormat::RGBA8)
+        page.bytes = texels;
+    else
+        page = decodeBlocks(texels, format, side, side);
+    Pixels picture(int(grid.getWidth(last)), int(grid.getHeight(last)), page.channels);
+    for (int y = 0; y < picture.height; ++y)
+        std::copy_n(page.row(border + y) + border * page.channels,
+                    picture.width * picture.channels, picture.row(picture.height - 1 - y));
+    return picture;
 }
 
 void VirtualContext::releaseGLObjects(osg::State* state)

@@ -6,9 +6,11 @@
 #include <osgPagedTexture/VirtualFeedback.h>
 #include <osgPagedTexture/VirtualPager.h>
 #include <osgPagedTexture/VirtualTables.h>
+#include <osgPagedTexture/VirtualTexture.h>
 
 #include <osg/Camera>
 #include <osg/StateSet>
+#include <osg/observer_ptr>
 
 #include <map>
 #include <memory>
@@ -42,6 +44,9 @@ public:
     VirtualContext(unsigned int contextID, std::shared_ptr<VirtualPager> pager,
                    const SlotGrid& slots);
 
+    /// The texture shows the pager's of this number.
+    void add(std::uint32_t number, const VirtualTexture& texture);
+
     /// Pages and tables that the pager has for it; of pages about `milliseconds`' worth. Returns
     /// whether that was all. `seconds` is the time.
     bool upload(osg::State& state, double milliseconds, double seconds);
@@ -49,6 +54,9 @@ public:
     /// What a view remembers from frame to frame.
     struct View
     {
+        /// Pictures of a view at rest, each of other pixels, after which its needs are known.
+        static constexpr int CalmPictures = 16;
+
         std::unique_ptr<VirtualFeedback> feedback;
         unsigned int number = 0;      ///< With the pager.
         std::uint64_t seen = 0;       ///< Hash of what was drawn.
@@ -76,11 +84,22 @@ protected:
 
 private:
     void apply(osg::State& state, const PageUploads& uploads, double seconds);
+    void showCoarsest(osg::State& state);
+    Pixels pictureOf(std::uint32_t number, const PageTexels& texels) const;
 
     const unsigned int _contextID;
     const std::shared_ptr<VirtualPager> _pager;
     const SlotGrid _slots;
-    std::set<std::uint32_t> _known; ///< Textures that the tables have.
+    /// What virtual textures have beside their pages.
+    struct Shown
+    {
+        TileGrid grid;
+        std::set<osg::observer_ptr<const VirtualTexture>> textures;
+        std::shared_ptr<const PageTexels> coarsest; ///< That their image is.
+    };
+    std::map<std::uint32_t, Shown> _shown;
+    /// The coarsest pages of textures, by slot.
+    std::map<int, std::shared_ptr<const PageTexels>> _coarsest;
     VirtualTables _tables;
     osg::ref_ptr<UploadTexture> _pages;
     osg::ref_ptr<osg::StateSet> _stateSet;

@@ -62,6 +62,7 @@ int VirtualPass::codeOf(const VirtualTexture& texture)
     const int row = _resources->numberOf(texture);
     if (row < 0 || row > int(VirtualTables::MaxTextures))
         return -1;
+    _context->add(std::uint32_t(row), texture);
     const int taps = _settings.anisotropy
                          ? int(_settings.anisotropy)
                          : std::clamp(int(texture.getMaxAnisotropy() + 0.5f), 1, 16);

@@ -26,8 +26,6 @@ namespace
 constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
-/// Pictures of a view at rest, each with other pixels, after which all that it needs is known.
-constexpr unsigned int calmPictures = 16;
 /// Of VirtualSettings::wait.
 constexpr double longestWait = 120.0;
 
@@ -162,7 +160,7 @@ void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     view.seen = seen;
     if (_codes.empty())
         return;
-    if (view.calmFrames >= calmPictures && !view.feedback->isOnItsWay() && pager.isAtRest())
+    if (view.calmFrames >= unsigned(VirtualContext::View::CalmPictures) && !view.feedback->isOnItsWay() && pager.isAtRest())
         return;
     const osgMultiRender::FramebufferVisit visit(state);
     drawFeedback(renderInfo, frame, view, _settings.feedback, view.calmFrames + _frameNumber);

@@ -58,6 +58,16 @@ void VirtualTables::apply(const TablePatch& patch)
     touch(table.row + patch.rect.y, patch.rect.height);
 }
 
+std::uint32_t VirtualTables::coarsestOf(std::uint32_t texture) const
+{
+    const auto found = _tables.find(texture);
+    if (found == _tables.end() || !found->second.layout || !_isArranged)
+        return PageEntry::Empty;
+    const PageTableLayout::Level& last = found->second.layout->levels.back();
+    const int row = found->second.row + last.y;
+    return _words[std::size_t(row) * std::size_t(_width) + std::size_t(last.x)];
+}
+
 void VirtualTables::setTime(int slot, float seconds)
 {
     _times[std::size_t(slot)] = seconds;
@@ -111,10 +121,14 @@ void VirtualTables::arrange()
 
 void VirtualTables::writeHeader(std::uint32_t number, const Table& table)
 {
-    if (!table.layout)
-        return;
     std::uint32_t* header = rowAt(int(number));
-    const PageTableLayout& layout = *table.layout;
+    // Before anything is known, a level whose only entry is one of the row's own, which is Empty.
+    static const PageTableLayout nothing{
+        1, 1, 0, {PageTableLayout::Level{leastWidth - 1, 0, 1, 1}}};
+    PageTableLayout layout = table.layout ? *table.layout : nothing;
+    const int row = table.layout ? table.row : int(number);
+    if (!table.layout)
+        layout.finest = pageLevels(table.grid) - 1;
     header[0] = std::uint32_t(table.grid.getWidth());
     header[1] = std::uint32_t(table.grid.getHeight());
     header[2] =
@@ -122,7 +136,7 @@ void VirtualTables::writeHeader(std::uint32_t number, const Table& table)
     header[3] = std::uint32_t(layout.finest) | std::uint32_t(layout.coarsest()) << 8;
     for (std::size_t i = 0; i < layout.levels.size(); ++i)
         header[4 + i] = std::uint32_t(layout.levels[i].x) |
-                        std::uint32_t(layout.levels[i].y + table.row) << 16;
+                        std::uint32_t(layout.levels[i].y + row) << 16;
     touch(int(number), 1);
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/VirtualTexture.h>
 
+#include <osgPagedTexture/MakeMipChain.h>
 #include <osgPagedTexture/TileExtract.h>
 #include <osgPagedTexture/VirtualPages.h>
 
 #include <osg/Image>
+#include <osg/State>
 
+#include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace osgPagedTexture
 {
@@ -22,25 +26,54 @@ osg::ref_ptr<osg::Image> greyTexel()
     return image;
 }
 
+/// All levels of a picture, that one first.
+std::vector<Pixels> levelsOf(const Pixels& picture)
+{
+    std::vector<Pixels> levels = {picture};
+    while (levels.back().width > 1 || levels.back().height > 1)
+        levels.push_back(halve(levels.back(), TexelUse::Color));
+    return levels;
+}
+
 /// The coarsest level that is paged, which is a single page.
-osg::ref_ptr<osg::Image> coarsestOf(const TileReader& reader)
+Pixels coarsestOf(const TileReader& reader)
 {
     const TileGrid& grid = reader.getSettings().grid;
     const int level = pageLevels(grid) - 1;
-    const bool hasAlpha = reader.getSettings().format == "png";
+    Pixels picture(int(grid.getWidth(level)), int(grid.getHeight(level)),
+                   reader.getSettings().format == "png" ? 4 : 3);
     ExtractSettings settings;
-    settings.channels = hasAlpha ? 4 : 3;
-    osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->allocateImage(int(grid.getWidth(level)), int(grid.getHeight(level)), 1,
-                         hasAlpha ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE);
-    int y = image->t();
-    readRegion(reader, level, {0, 0, image->s(), image->t()}, settings,
+    settings.channels = picture.channels;
+    int y = picture.height;
+    readRegion(reader, level, {0, 0, picture.width, picture.height}, settings,
                [&](const std::uint8_t* row)
-               {
-                   --y;
-                   std::memcpy(image->data(0, y), row,
-                               std::size_t(image->s()) * std::size_t(settings.channels));
-               });
+               { std::copy_n(row, picture.width * picture.channels, picture.row(--y)); });
+    return picture;
+}
+
+osg::ref_ptr<osg::Image> imageOf(const Pixels& picture)
+{
+    const std::vector<Pixels> levels = levelsOf(picture);
+    osg::Image::MipmapDataType offsets;
+    std::size_t size = 0;
+    for (const Pixels& level : levels)
+    {
+        if (size > 0)
+            offsets.push_back(unsigned(size));
+        size += level.bytes.size();
+    }
+    auto* const data = new unsigned char[size];
+    std::size_t at = 0;
+    for (const Pixels& level : levels)
+    {
+        std::copy(level.bytes.begin(), level.bytes.end(), data + at);
+        at += level.bytes.size();
+    }
+    const GLenum layout = picture.channels == 4 ? GL_RGBA : GL_RGB;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->setImage(picture.width, picture.height, 1, GLint(layout), layout, GL_UNSIGNED_BYTE, data,
+                    osg::Image::USE_NEW_DELETE);
+    image->setMipmapLevels(offsets);
     return image;
 }
 
@@ -93,7 +126,7 @@ std::string VirtualTexture::loadImage(const std::string& file)
     _file = file;
     try
     {
-        setImage(coarsestOf(*openTileStore(file)));
+        setImage(imageOf(coarsestOf(*openTileStore(file))));
         return {};
     }
     catch (const TileStoreError& error)
@@ -101,6 +134,24 @@ std::string VirtualTexture::loadImage(const std::string& file)
         setImage(greyTexel());
         return error.what();
     }
+}
+
+void VirtualTexture::showPicture(osg::State& state, const Pixels& picture) const
+{
+    const osg::Image* const image = getImage();
+    if (!image || image->s() != picture.width || image->t() != picture.height)
+        return;
+    state.setActiveTextureUnit(0);
+    apply(state);
+    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
+    state.unbindPixelBufferObject();
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    const GLenum layout = picture.channels == 4 ? GL_RGBA : GL_RGB;
+    GLint number = 0;
+    for (const Pixels& level : levelsOf(picture))
+        glTexSubImage2D(GL_TEXTURE_2D, number++, 0, 0, level.width, level.height, layout,
+                        GL_UNSIGNED_BYTE, level.bytes.data());
 }
 
 } // namespace osgPagedTexture

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <osgPagedTexture/Export.h>
+#include <osgPagedTexture/Pixels.h>
 
 #include <osg/Texture2D>
 
-#include <memory>
-#include <mutex>
 #include <string>
 
 namespace osgPagedTexture
@@ -39,6 +38,9 @@ public:
     /// the store can't be read: then the image is a grey texel. `file` is where the store was
     /// found.
     std::string loadImage(const std::string& file);
+    /// Puts another picture of the same size, and its levels, in the place of the image in one
+    /// context. Uses unit 0; in the draw thread.
+    void showPicture(osg::State& state, const Pixels& picture) const;
     /// Where loadImage() found the store; empty before that.
     const std::string& getFile() const { return _file; }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "VirtualScenes.h"
 
+#include <osgPagedTexture/MakeMipChain.h>
 #include <osgPagedTexture/VirtualOptions.h>
 
 #include <osg/Geometry>
@@ -21,25 +22,18 @@ using namespace osgPagedTexture;
 namespace
 {
 
-/// The mean of each four texels; of an odd side the last one counts twice.
+/// Half of it, rounded up: of an odd side the last texels count twice.
 Pixels halved(const Pixels& from)
 {
-    Pixels to((from.width + 1) / 2, (from.height + 1) / 2, from.channels);
-    // From the top, as stores count.
-    const auto rowOf = [&](int y)
-    { return from.row(from.height - 1 - std::min(y, from.height - 1)); };
-    for (int y = 0; y < to.height; ++y)
-        for (int x = 0; x < to.width; ++x)
-            for (int c = 0; c < to.channels; ++c)
-            {
-                int sum = 2;
-                for (int i = 0; i < 4; ++i)
-                    sum += rowOf(2 * y + i / 2)[std::min(2 * x + i % 2, from.width - 1) *
-                                                    from.channels +
-                                                c];
-                to.row(to.height - 1 - y)[x * to.channels + c] = std::uint8_t(sum / 4);
-            }
-    return to;
+    Pixels even(from.width + from.width % 2, from.height + from.height % 2, from.channels);
+    for (int y = 0; y < even.height; ++y)
+        for (int x = 0; x < even.width; ++x)
+            // Rows are from the bottom here, and from the top in stores.
+            std::memcpy(even.row(even.height - 1 - y) + x * from.channels,
+                        from.row(from.height - 1 - std::min(y, from.height - 1)) +
+                            std::min(x, from.width - 1) * from.channels,
+                        std::size_t(from.channels));
+    return halve(even, TexelUse::Color);
 }
 
 /// A tile with its border; what lies outside repeats the edge.
