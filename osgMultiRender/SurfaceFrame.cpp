@@ -25,8 +25,8 @@ bool byOrder(const SurfaceItem& a, const SurfaceItem& b)
         return a.diverted;
     // Those of an output pass follow each other.
     if (a.passes != b.passes)
-        return std::tie(a.passes[1], a.passes[0], a.passes[2]) <
-               std::tie(b.passes[1], b.passes[0], b.passes[2]);
+        return std::tie(a.passes[1], a.passes[0], a.passes[2], a.passes[3]) <
+               std::tie(b.passes[1], b.passes[0], b.passes[2], b.passes[3]);
     return a.order < b.order;
 }
 

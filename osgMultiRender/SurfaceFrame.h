@@ -16,16 +16,16 @@ namespace osgMultiRender
 {
 
 /// The passes of a leaf in a SurfaceFrame, by role: their places, or NoPass.
-using SurfacePasses = std::array<std::uint16_t, 3>;
+using SurfacePasses = std::array<std::uint16_t, 4>;
 constexpr std::uint16_t NoPass = 0xffff;
-constexpr SurfacePasses NoPasses = {NoPass, NoPass, NoPass};
+constexpr SurfacePasses NoPasses = {NoPass, NoPass, NoPass, NoPass};
 
 /// One leaf of the subgraph and what draws it.
 struct SurfaceItem
 {
     osgUtil::RenderLeaf* leaf = nullptr;
     SurfaceVariant* variant = nullptr;      ///< Null: the leaf keeps its own state.
-    std::array<std::uint32_t, 3> numbers{}; ///< The passes' numbers of the leaf, by role.
+    std::array<std::uint32_t, 4> numbers{}; ///< The passes' numbers of the leaf, by role.
     SurfacePasses passes = NoPasses;
     bool diverted = false;                 ///< Drawn through SurfacePass::divert().
     std::uint32_t order = 0;               ///< Of the variant, by first appearance in the frame.
@@ -42,6 +42,8 @@ struct SurfaceItem
             return variant->getKey().kit;
         case SurfaceRole::Output:
             return variant->getKey().output;
+        case SurfaceRole::Texture:
+            return variant->getKey().texture;
         default:
             return look;
         }
@@ -147,6 +149,7 @@ private:
     static constexpr std::size_t LightRole = static_cast<std::size_t>(SurfaceRole::Light);
     static constexpr std::size_t OutputRole = static_cast<std::size_t>(SurfaceRole::Output);
     static constexpr std::size_t LookRole = static_cast<std::size_t>(SurfaceRole::Surface);
+    static constexpr std::size_t TextureRole = static_cast<std::size_t>(SurfaceRole::Texture);
     /// What the leaves of one StateGraph have in common.
     struct Surface
     {

@@ -33,7 +33,8 @@ enum class SurfaceRole : std::uint8_t
 {
     Light,  ///< How surfaces are lit: SurfaceKey::kit.
     Output, ///< What is written beside and after the colour: SurfaceKey::output.
-    Surface ///< What surfaces look like instead of their own look: look().
+    Surface, ///< What surfaces look like instead of their own look: look().
+    Texture  ///< What texture units give to a surface's own look: SurfaceKey::texture.
 };
 
 /// A kit's part in the draw of one view of one frame. Lives in the draw thread.
@@ -63,7 +64,8 @@ public:
     /// Says which bits of its own a leaf's key gets, and gives the leaf a number for apply().
     /// `ordered` tells that the leaf lies in a bin sorted by depth or traversal. With
     /// SurfaceRole::Light only for leaves whose key has LightingMode::Pixel, and for others without
-    /// a program of their own if classifiesUnlit().
+    /// a program of their own if classifiesUnlit(); with SurfaceRole::Texture only for leaves
+    /// without a program or look.
     virtual void classify(const SurfaceState& state, const osgUtil::RenderLeaf& leaf, bool ordered,
                           SurfaceKey& key, std::uint32_t& number) = 0;
     virtual bool classifiesUnlit() const { return false; }

@@ -155,8 +155,8 @@ bool SurfaceKey::usesNormals() const
 {
     if (lighting != LightingMode::Off)
         return true;
-    for (const TextureKey& texture : textures)
-        if (texture.target && texture.generated && texture.generation >= TextureKey::SphereMap)
+    for (const TextureKey& unit : textures)
+        if (unit.target && unit.generated && unit.generation >= TextureKey::SphereMap)
             return true;
     return false;
 }
@@ -165,9 +165,9 @@ bool SurfaceKey::usesEyePosition() const
 {
     if (lighting != LightingMode::Off || (fog && !fogCoordinate) || clip)
         return true;
-    for (const TextureKey& texture : textures)
-        if (texture.target && texture.generated && texture.generation != TextureKey::ObjectLinear &&
-            texture.generation != TextureKey::NormalMap)
+    for (const TextureKey& unit : textures)
+        if (unit.target && unit.generated && unit.generation != TextureKey::ObjectLinear &&
+            unit.generation != TextureKey::NormalMap)
             return true;
     return false;
 }
@@ -179,6 +179,7 @@ bool equal(const TextureKey& a, const TextureKey& b)
 {
     return a.target == b.target && a.environment == b.environment && a.baseFormat == b.baseFormat &&
            a.generation == b.generation && a.generated == b.generated && a.matrix == b.matrix &&
+           a.sampled == b.sampled &&
            a.function == b.function && a.source == b.source && a.operand == b.operand &&
            a.scale == b.scale;
 }
@@ -207,6 +208,7 @@ bool SurfaceKey::operator==(const SurfaceKey& other) const
            colorMode == other.colorMode && colorSum == other.colorSum && flat == other.flat &&
            fog == other.fog && fogCoordinate == other.fogCoordinate && clip == other.clip &&
            lights == other.lights && kit == other.kit && output == other.output &&
+           texture == other.texture &&
            program == other.program && instance == other.instance;
 }
 
@@ -219,7 +221,7 @@ std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
           std::uint64_t(key.separateSpecular), std::uint64_t(key.colorMode),
           std::uint64_t(key.colorSum), std::uint64_t(key.flat), std::uint64_t(key.fog),
           std::uint64_t(key.fogCoordinate), std::uint64_t(key.clip), std::uint64_t(key.kit),
-          std::uint64_t(key.output), key.program, key.instance})
+          std::uint64_t(key.output), std::uint64_t(key.texture), key.program, key.instance})
         hash.add(x);
     hash.addAll(key.lights);
     for (const TextureKey& texture : key.textures)
@@ -227,7 +229,7 @@ std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
         if (!texture.target)
             continue;
         for (std::uint8_t x : {texture.target, texture.environment, texture.baseFormat,
-                               texture.generation, texture.generated, texture.matrix})
+                               texture.generation, texture.generated, texture.matrix, texture.sampled})
             hash.add(x);
         hash.addAll(texture.function);
         hash.addAll(texture.source);
@@ -284,6 +286,8 @@ std::string toString(const SurfaceKey& key)
             text << "/gen-" << generations[texture.generation];
         if (texture.matrix)
             text << "/matrix";
+        if (texture.sampled)
+            text << "/sampled";
     }
     if (key.fog)
         text << " fog=" << fogs[key.fog] << (key.fogCoordinate ? "/coordinate" : "");
@@ -292,6 +296,8 @@ std::string toString(const SurfaceKey& key)
         text << " kit=" << std::hex << key.kit;
     if (key.output)
         text << " output=" << std::hex << key.output;
+    if (key.texture)
+        text << " texture=" << std::hex << key.texture;
     flag(key.instance != 0, "instanced");
     const std::string words = text.str();
     return words.empty() ? "plain" : words.substr(1);

@@ -65,6 +65,7 @@ struct TextureKey
     std::uint8_t generation = ObjectLinear; ///< Meant only where generated is not 0.
     std::uint8_t generated = 0;             ///< Bit 0 to 3: s, t, r, q come from TexGen.
     std::uint8_t matrix = 0;                ///< 1: a texture matrix applies.
+    std::uint8_t sampled = 0;               ///< 1: the texture pass says what it gives; 2D only.
     /// TexEnvCombine: function (0-7) of RGB and alpha, then sources (0-6) and operands (0-3), then
     /// scales (0-2 for 1, 2, 4). Zero for the other environments.
     std::array<std::uint8_t, 2> function{};
@@ -136,6 +137,7 @@ struct OSGMULTIRENDER_EXPORT SurfaceKey
     std::array<TextureKey, SurfaceState::MaxTextureUnits> textures{};
     std::uint32_t kit = 0;      ///< What the snippet of the light pass depends on; its own meaning.
     std::uint32_t output = 0;   ///< What the snippet of the output pass depends on.
+    std::uint32_t texture = 0;  ///< What the snippet of the texture pass depends on.
     std::uint64_t program = 0;  ///< Content of the model's own Program, 0 for none.
     std::uint64_t instance = 0; ///< Content of a VertexSnippet, 0 for none.
 

@@ -49,6 +49,8 @@ SurfaceSnippet SurfaceFrame::makeSnippet(const SurfaceKey& key, const SurfacePas
     SurfaceSnippet snippet;
     if (passes[LightRole] != NoPass && !hasProgram)
         snippet += _passes[passes[LightRole]].pass->makeSnippet(key);
+    if (passes[TextureRole] != NoPass && key.texture)
+        snippet += _passes[passes[TextureRole]].pass->makeSnippet(key);
     if (passes[OutputRole] != NoPass && key.output)
         snippet += _passes[passes[OutputRole]].pass->makeSnippet(key);
     return snippet;
@@ -171,9 +173,12 @@ void SurfaceFrame::resolve(osg::State& state, Surface& surface, osgUtil::RenderL
         return;
     }
     SurfaceKey& key = surface.key;
-    const std::uint32_t kit = std::exchange(key.kit, 0), output = std::exchange(key.output, 0);
+    const std::uint32_t kit = std::exchange(key.kit, 0), output = std::exchange(key.output, 0),
+                        texture = std::exchange(key.texture, 0);
+    for (TextureKey& unit : key.textures)
+        unit.sampled = 0;
     classify(surface, leaf, ordered, key, item);
-    if (key.kit != kit || key.output != output)
+    if (key.kit != kit || key.output != output || key.texture != texture)
         surface.variant = nullptr;
     if (!surface.variant)
         surface.variant = variantOf(key, surface);
@@ -195,6 +200,8 @@ void SurfaceFrame::classify(const Surface& surface, const osgUtil::RenderLeaf& l
         if (place == NoPass || _passes[place].role() == LookRole)
             continue;
         const Pass& pass = _passes[place];
+        if (pass.role() == TextureRole && key.program)
+            continue;
         const bool isLit = key.lighting == LightingMode::Pixel || pass.pass->classifiesUnlit();
         if (pass.role() != LightRole || (isLit && !key.program))
             pass.pass->classify(*surface.state, leaf, ordered, key, item.numbers[pass.role()]);

@@ -118,6 +118,9 @@ std::string fetchOf(unsigned int unit, const TextureKey& key)
 {
     const std::string sampler = "osgmr_texture" + std::to_string(unit);
     const std::string coord = "gl_TexCoord[" + std::to_string(unit) + "]";
+    if (key.sampled)
+        return "osgmr_sample(" + std::to_string(unit) + ", " + sampler + ", " + coord + ".st / " +
+               coord + ".q)";
     if (key.target == TextureKey::TargetCube)
         return "texture(" + sampler + ", " + coord + ".xyz)";
     return "textureProj(" + sampler + ", " + coord + ")";
@@ -236,6 +239,9 @@ std::string texturesOf(const SurfaceKey& key)
         if (key.textures[unit].target)
             text << "uniform " << samplers[key.textures[unit].target] << " osgmr_texture" << unit
                  << ";\n";
+    if (std::any_of(key.textures.begin(), key.textures.end(),
+                    [](const TextureKey& texture) { return texture.sampled; }))
+        text << "vec4 osgmr_sample(int unit, sampler2D own, vec2 coord);\n";
     text << "vec4 osgmr_textures(vec4 primary)\n{\n    vec4 c = primary;\n";
     for (unsigned int unit = 0; unit < key.textures.size(); ++unit)
         if (key.textures[unit].target)

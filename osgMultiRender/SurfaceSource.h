@@ -29,8 +29,9 @@ struct VertexParts
     std::string statements; ///< In main(), after gl_Position.
 };
 
-/// The surface function of `key`. Samplers are named osgmr_texture<unit>. The texts have no
-/// #version.
+/// The surface function of `key`. Samplers are named osgmr_texture<unit>. Units with
+/// TextureKey::sampled call vec4 osgmr_sample(int unit, sampler2D own, vec2 coord), which the
+/// snippet of the texture pass defines; `own` is what is bound there. The texts have no #version.
 OSGMULTIRENDER_EXPORT SurfaceSource makeSurfaceSource(const SurfaceKey& key,
                                                       const VertexParts& parts = {});
 

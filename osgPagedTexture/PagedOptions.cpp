@@ -1,44 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/PagedOptions.h>
 
-#include <osgMultiRender/PseudoLoader.h>
+#include <osgPagedTexture/OptionText.h>
 
 namespace osgPagedTexture
 {
 
 namespace
 {
-
-template <class Value> auto setterOf(Value PagedSettings::*member)
-{
-    return [member](PagedSettings& settings, const Value& value) { settings.*member = value; };
-}
-
-template <class Number>
-PagedOption number(const char* name, Number PagedSettings::*member, Number low, Number high,
-                   const char* help)
-{
-    return osgMultiRender::numberOption<PagedSettings>(name, help, low, high, member,
-                                                       setterOf(member));
-}
-
-template <class Value> struct Word
-{
-    const char* name;
-    Value value;
-};
-
-template <class Value>
-PagedOption choice(const char* name, Value PagedSettings::*member,
-                   const std::vector<Word<Value>>& words, const char* help)
-{
-    return osgMultiRender::wordOption<PagedSettings>(name, help, words, member, setterOf(member));
-}
-
-PagedOption flag(const char* name, bool PagedSettings::*member, const char* help)
-{
-    return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
-}
 
 PagedOption cacheOption()
 {
@@ -52,15 +21,6 @@ PagedOption cacheOption()
                 return {};
             },
             [](const PagedSettings& settings) { return settings.cache; }};
-}
-
-/// As parseSettings() takes it for one word.
-std::string quoted(const std::string& value)
-{
-    std::string text = "'";
-    for (const char c : value)
-        text += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
-    return text + "'";
 }
 
 } // namespace
@@ -115,28 +75,12 @@ bool setPagedOption(PagedSettings& settings, const std::string& name, const std:
 
 std::string formatPagedOptions(const PagedSettings& settings)
 {
-    const PagedSettings defaults;
-    std::string all;
-    for (const PagedOption& option : pagedOptions())
-    {
-        const std::string value = option.format(settings);
-        if (value != option.format(defaults))
-            all += (all.empty() ? "" : ",") + option.name + "=" + quoted(value);
-    }
-    return all;
+    return formatOptions(pagedOptions(), settings);
 }
 
 std::vector<std::string> parsePagedOptions(PagedSettings& settings, const std::string& text)
 {
-    osgMultiRender::Settings parsed;
-    std::string error;
-    if (!osgMultiRender::parseSettings(text, parsed, error))
-        return {error};
-    std::vector<std::string> errors;
-    for (const auto& [name, value] : parsed)
-        if (!setPagedOption(settings, name, value, error))
-            errors.push_back(error);
-    return errors;
+    return parseOptions(pagedOptions(), settings, text);
 }
 
 } // namespace osgPagedTexture

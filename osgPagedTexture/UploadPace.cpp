@@ -14,6 +14,12 @@ void UploadPace::begin(double milliseconds)
     _isFirst = true;
 }
 
+void UploadPace::widen(double milliseconds)
+{
+    _budget = std::isnan(milliseconds) ? _budget : std::max(_budget, milliseconds);
+    _isFirst = true;
+}
+
 std::uint64_t UploadPace::piece() const
 {
     // Half of what is left, so that a piece that takes twice as long still fits.

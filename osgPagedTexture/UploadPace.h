@@ -20,6 +20,10 @@ public:
     /// Begins a frame that may take that many milliseconds.
     void begin(double milliseconds);
 
+    /// Somebody else uploads in the same frame, which may take that many milliseconds in all.
+    /// That one's first piece is granted, too.
+    void widen(double milliseconds);
+
     /// Bytes of the next piece; 0: the frame has no time left. The first piece of a frame is at
     /// least LeastPiece, so that it goes on however short the time is.
     std::uint64_t piece() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/UploadQueue.h>
 
+#include <osgPagedTexture/ContextPace.h>
 #include <osgPagedTexture/ContextTextures.h>
 #include <osgPagedTexture/GlFormat.h>
 #include <osgPagedTexture/ThreadClock.h>
@@ -366,7 +367,8 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     begin(state);
     const UnpackScope scope(state);
     const std::uint64_t before = _uploaded;
-    _pace.begin(limits.milliseconds);
+    UploadPace& pace = ContextPace::of(state).begin(state, limits.milliseconds);
+    const double spent = pace.getSpent();
     double start = threadMilliseconds();
     takeOrders();
     if (!_buffer)
@@ -374,7 +376,7 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     _gl->glBindBuffer(UnpackBuffer, _buffer);
     while (_build || !_jobs.empty())
     {
-        const std::uint64_t piece = _pace.piece();
+        const std::uint64_t piece = pace.piece();
         if (piece == 0)
             break;
         const std::uint64_t had = _uploaded;
@@ -390,14 +392,14 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
             _build.reset();
         }
         const double now = threadMilliseconds();
-        _pace.took(_uploaded - had, now - start);
+        pace.took(_uploaded - had, now - start);
         start = now;
     }
     std::lock_guard<std::mutex> lock(_mutex);
     _statistics.bytes = _bytes;
     _statistics.uploaded = _uploaded;
     _statistics.lastUploaded = _uploaded - before;
-    _statistics.lastMilliseconds = _pace.getSpent();
+    _statistics.lastMilliseconds = pace.getSpent() - spent;
     _statistics.waiting = _jobs.size() + (_build ? 1 : 0);
     _statistics.waitingBytes = _build ? _build->job.chain->bytes() : 0;
     for (const UploadJob& job : _jobs)

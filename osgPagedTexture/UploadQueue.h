@@ -3,7 +3,6 @@
 
 #include <osgPagedTexture/MipChain.h>
 #include <osgPagedTexture/PagerStatistics.h>
-#include <osgPagedTexture/UploadPace.h>
 
 #include <osg/State>
 
@@ -142,7 +141,6 @@ private:
     std::unique_ptr<Build> _build;
     std::uint64_t _bytes = 0;
     std::uint64_t _uploaded = 0;
-    UploadPace _pace;
 };
 
 } // namespace osgPagedTexture

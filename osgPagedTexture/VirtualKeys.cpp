@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/VirtualKeys.h>
+
+#include <osgPagedTexture/VirtualScene.h>
+
+#include <osg/ApplicationUsage>
+#include <osg/Notify>
+#include <osgGA/EventVisitor>
+
+#include <string>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+using KeyEvent = osgGA::GUIEventAdapter;
+
+[[maybe_unused]] const bool isInUsage = []
+{
+    for (const PagedKey& key : virtualKeys())
+        osg::ApplicationUsage::instance()->addKeyboardMouseBinding(std::string(1, key.key),
+                                                                   key.help);
+    return true;
+}();
+
+/// One thing instead of the picture, or the picture again.
+std::string toggle(VirtualSettings& settings, VirtualShow show, const char* word)
+{
+    const bool shows = settings.show == show;
+    settings.show = shows ? VirtualShow::Picture : show;
+    return shows ? "show=picture" : std::string("show=") + word;
+}
+
+void answer(char key, VirtualScene& scene)
+{
+    VirtualSettings settings = scene.getSettings();
+    std::string said;
+    switch (key)
+    {
+    case 'u':
+        scene.update();
+        said = "stores are read again";
+        break;
+    case 'C':
+        said = toggle(settings, VirtualShow::Levels, "levels");
+        break;
+    case 'T':
+        said = toggle(settings, VirtualShow::Pages, "pages");
+        break;
+    case '#':
+        settings.graph = !settings.graph;
+        said = settings.graph ? "graph=on" : "graph=off";
+        break;
+    default:
+        settings.freeze = !settings.freeze;
+        said = settings.freeze ? "freeze=on" : "freeze=off";
+        break;
+    }
+    scene.setSettings(settings);
+    OSG_NOTICE << "osgPagedTexture: " << said << std::endl;
+}
+
+} // namespace
+
+const std::vector<PagedKey>& virtualKeys()
+{
+    static const std::vector<PagedKey> keys = {
+        {'u', "Virtual textures: stores are read again"},
+        {'C', "Virtual textures: the picture, or a colour for the level of each pixel"},
+        {'T', "Virtual textures: the picture, or borders of pages over it"},
+        {'=', "Virtual textures: no page comes or goes, or they do again"},
+        {'#', "Virtual textures: says once a second what pages do, or not"},
+    };
+    return keys;
+}
+
+void answerKeys(VirtualScene& scene, osgGA::EventVisitor& visitor)
+{
+    for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
+    {
+        KeyEvent* event = each->asGUIEventAdapter();
+        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
+            continue;
+        for (const PagedKey& key : virtualKeys())
+            if (event->getKey() == key.key)
+            {
+                answer(key.key, scene);
+                event->setHandled(true);
+                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
+                    viewer->requestRedraw();
+            }
+    }
+}
+
+} // namespace osgPagedTexture
