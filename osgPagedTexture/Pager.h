@@ -156,7 +156,7 @@ private:
     bool learnAbilities();
     void takeEvents();
     void takeChanges();
-    void readAgain(unsigned int texture);
+    void loadAgain(unsigned int texture, const ImageInfo& info);
     void setFormat(Entry& entry);
     void takeResults();
     void accept(const ChainResult& result);

@@ -17,29 +17,24 @@ void Pager::takeChanges()
 {
     if (!_watch)
         return;
-    for (const std::string& file : _watch->takeChanged())
-        for (unsigned int i = 0; i < _entries.size(); ++i)
-            if (_entries[i].users > 0 && _entries[i].image.file == file)
-                readAgain(i);
+    for (const ChangedFile& changed : _watch->takeChanged())
+    {
+        if (!changed.error.empty())
+            OSG_WARN << "osgPagedTexture: " << changed.error << "; what is there of it stays"
+                     << std::endl;
+        for (unsigned int i = 0; changed.error.empty() && i < _entries.size(); ++i)
+            if (_entries[i].users > 0 && _entries[i].image.file == changed.file)
+                loadAgain(i, changed.info);
+    }
 }
 
-void Pager::readAgain(unsigned int texture)
+void Pager::loadAgain(unsigned int texture, const ImageInfo& info)
 {
     Entry& entry = _entries[texture];
-    try
-    {
-        const ImageInfo info = readImageInfo(entry.image.file);
-        entry.image.width = info.width;
-        entry.image.height = info.height;
-        entry.image.channels = info.channels;
-        entry.image.translucent = info.translucent;
-    }
-    catch (const ImageError& error)
-    {
-        OSG_WARN << "osgPagedTexture: " << error.what() << "; what is there of it stays"
-                 << std::endl;
-        return;
-    }
+    entry.image.width = info.width;
+    entry.image.height = info.height;
+    entry.image.channels = info.channels;
+    entry.image.translucent = info.translucent;
     cancel(texture);
     setFormat(entry);
     entry.state->failed = false;
