@@ -209,7 +209,9 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
         if (named++ >= maxPlanned)
             continue;
         const std::string size = std::to_string(line.width) + "x" + std::to_string(line.height);
-        osgMultiRender::PlanEntry entry{"texture '" + line.file + "' " + size, Decision::Drawn, {}};
+        constexpr const char* uses[] = {"", ", data", ", normals", ", normals (x, y)"};
+        osgMultiRender::PlanEntry entry{
+            "texture '" + line.file + "' " + size + uses[int(line.use)], Decision::Drawn, {}};
         if (line.failed)
             entry = {entry.subject, Decision::Dropped, "it can't be read; a placeholder is shown"};
         else if (line.wanted < 0 && line.level < 0)

@@ -9,6 +9,7 @@
 #include <osgPagedTexture/PagerStatistics.h>
 #include <osgPagedTexture/Residency.h>
 #include <osgPagedTexture/TexelNeed.h>
+#include <osgPagedTexture/TextureUse.h>
 #include <osgPagedTexture/UploadQueue.h>
 
 #include <atomic>
@@ -30,7 +31,7 @@ struct PagedImage
     int height = 1;
     int channels = 3; ///< As Pixels::channels.
     bool translucent = false;
-    bool isNormalMap = false;
+    TextureUse use = TextureUse::Color;
     double anisotropy = 1.0;
     double lodBias = 0.0;
 };
@@ -95,6 +96,8 @@ public:
         bool failed = false;
         int width = 0;
         int height = 0;
+        TextureUse use = TextureUse::Color;
+        BlockFormat format = BlockFormat::RGBA8;
     };
     std::vector<Line> getLines() const;
 
@@ -183,9 +186,9 @@ private:
     PagedSettings _settings;
     std::deque<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
-    ContextAbilities _abilities;                                  ///< What all contexts can do.
-    std::map<std::pair<std::string, bool>, unsigned int> _byFile; ///< And whether normals.
-    std::map<RequestId, std::vector<unsigned int>> _requests;     ///< Equal ones share a number.
+    ContextAbilities _abilities; ///< What all contexts can do.
+    std::map<std::pair<std::string, TextureUse>, unsigned int> _byFile;
+    std::map<RequestId, std::vector<unsigned int>> _requests; ///< Equal ones share a number.
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;

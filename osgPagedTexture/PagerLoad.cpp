@@ -208,11 +208,12 @@ void Pager::ask(unsigned int texture)
         return;
     }
     cancel(texture);
-    const std::string key = formatName(entry.format) + (entry.image.isNormalMap ? "n" : "c") +
+    const std::string key = formatName(entry.format) + "." +
+                            std::to_string(int(entry.image.use)) + "." +
                             std::to_string(int(_settings.quality));
     std::shared_ptr<const ChainRecipe>& recipe = _recipes[key];
     if (!recipe)
-        recipe = recipeFor(entry.format, entry.image.isNormalMap, _settings.quality);
+        recipe = recipeFor(entry.format, entry.image.use, _settings.quality);
     ChainRequest request;
     request.file = entry.image.file;
     request.recipe = recipe;

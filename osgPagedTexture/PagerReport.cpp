@@ -57,7 +57,8 @@ std::vector<Pager::Line> Pager::getLines() const
         const Entry& entry = _entries[i];
         if (entry.users > 0)
             lines.push_back({entry.image.file, coarsest(unsigned(i)), entry.target, entry.need,
-                             entry.state->failed, entry.image.width, entry.image.height});
+                             entry.state->failed, entry.image.width, entry.image.height,
+                             entry.image.use, entry.format});
     }
     return lines;
 }
