@@ -164,7 +164,8 @@ private:
             if (here.bumpUnit < 0)
                 here.bumpUnit = bumpUnitOf(found->options);
             const std::string& name = image->getFileName();
-            give(texture, imageOf(found->file, found->info, texture, here, name), name);
+            give(texture, imageOf(found->file, found->info, texture, here, name),
+                 {name, found->file});
             return;
         }
         if (!giveFile(texture, *image, site))
@@ -183,7 +184,7 @@ private:
             if (info.width != image.s() || info.height != image.t())
                 return false;
             const std::string& name = image.getFileName();
-            give(texture, imageOf(file, info, texture, site, name), name);
+            give(texture, imageOf(file, info, texture, site, name), {name, file});
             return true;
         }
         catch (const ImageError&)
@@ -207,14 +208,19 @@ private:
         info.height = image.t();
         info.channels = int(osg::Image::computeNumComponents(image.getPixelFormat()));
         info.translucent = image.isImageTranslucent();
-        // Not in files: the stand-in would be all that is left of it there.
-        give(texture, imageOf(file, info, texture, site, image.getFileName()), {});
+        PagedOrigin origin;
+        origin.name = image.getFileName();
+        origin.file = file;
+        origin.format = image.getPixelFormat();
+        origin.internalFormat = image.getInternalTextureFormat();
+        origin.hint = image.getWriteHint();
+        give(texture, imageOf(file, info, texture, site, origin.name), origin);
     }
 
-    void give(osg::Texture2D& texture, const PagedImage& image, const std::string& name)
+    void give(osg::Texture2D& texture, const PagedImage& image, const PagedOrigin& origin)
     {
-        texture.setImage(makeKeptStandIn(name, image.translucent));
-        texture.setSubloadCallback(new PagedSubload(_pager, _pager->add(image)));
+        texture.setImage(makeKeptStandIn(origin.name, image.translucent));
+        texture.setSubloadCallback(new PagedSubload(_pager, _pager->add(image), origin));
     }
 
     const std::shared_ptr<Pager> _pager;

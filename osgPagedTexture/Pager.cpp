@@ -91,7 +91,10 @@ void Pager::advance(unsigned int frame)
     advanceLocked();
     // What views of this frame see is the next one's need.
     for (Entry& entry : _entries)
+    {
+        entry.soonBefore = entry.soonPixels;
         entry.pixels = entry.soonPixels = 0.0;
+    }
 }
 
 void Pager::advanceLocked()
@@ -212,7 +215,7 @@ void Pager::plan()
         wish.levels = int(entry.bytes->size()) - entry.finest;
         entry.need = wanted(entry.pixels);
         wish.need = entry.need;
-        wish.soon = wanted(entry.soonPixels);
+        wish.soon = wanted(std::max(entry.soonPixels, entry.soonBefore));
         const int there = coarsest(unsigned(i));
         wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
         wish.lastUsed = entry.lastUsed;

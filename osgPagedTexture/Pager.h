@@ -135,6 +135,7 @@ private:
         const std::vector<std::uint64_t>* bytes = nullptr; ///< Null: not known before GL is.
         double pixels = 0.0;
         double soonPixels = 0.0;
+        double soonBefore = 0.0; ///< A frame earlier: views look at two times ahead in turns.
         double need = ResidencyWish::None;
         std::uint32_t lastUsed = 0;
         int target = -1;

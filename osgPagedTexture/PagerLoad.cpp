@@ -124,7 +124,7 @@ double Pager::priority(const Entry& entry, int there) const
 {
     const int levels = int(entry.bytes->size());
     const double gap = (there == UploadEvent::Gone ? levels : there) - entry.target;
-    const double pixels = std::max(entry.pixels, entry.soonPixels);
+    const double pixels = std::max({entry.pixels, entry.soonPixels, entry.soonBefore});
     const double size = std::isfinite(pixels) ? std::log2(1.0 + pixels) : 64.0;
     return (entry.pixels > 0.0 ? 1000.0 : 0.0) + 10.0 * gap + size;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/Export.h>
+
 namespace osgPagedTexture
 {
 
@@ -9,7 +11,7 @@ namespace osgPagedTexture
 /// options say that files hold the data ("WriteImageHint=IncludeData", "inlineTexturesInIVEFile",
 /// "OutputTextureFiles" and others). They nest; at the last one's end the Registry is as it was. A
 /// WriteFileCallback that others have put into the Registry or into options stays in force.
-class SavedImages
+class OSGPAGEDTEXTURE_EXPORT SavedImages
 {
 public:
     SavedImages();
