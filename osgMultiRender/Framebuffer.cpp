@@ -86,6 +86,7 @@ FramebufferVisit::FramebufferVisit(osg::State& state) : _state(state)
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING_EXT, &_draw);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING_EXT, &_read);
     glGetIntegerv(GL_VIEWPORT, _viewport);
+    _applied = _state.getCurrentViewport();
     glGetFloatv(GL_COLOR_CLEAR_VALUE, _color);
     glGetDoublev(GL_DEPTH_CLEAR_VALUE, &_depth);
     _hasScissor = glIsEnabled(GL_SCISSOR_TEST);
@@ -107,7 +108,11 @@ FramebufferVisit::~FramebufferVisit()
     (_hasScissor ? glEnable : glDisable)(GL_SCISSOR_TEST);
     _state.haveAppliedMode(GL_SCISSOR_TEST, _hasScissor);
     _state.haveAppliedAttribute(osg::StateAttribute::SCISSOR);
-    _state.haveAppliedAttribute(osg::StateAttribute::VIEWPORT);
+    // Who asks osg::State for its viewport, such as a drawable of text, gets the one of before.
+    if (_applied)
+        _state.haveAppliedAttribute(_applied.get());
+    else
+        _state.haveAppliedAttribute(osg::StateAttribute::VIEWPORT);
 }
 
 } // namespace osgMultiRender

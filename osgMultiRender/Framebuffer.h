@@ -5,6 +5,7 @@
 
 #include <osg/GLExtensions>
 #include <osg/State>
+#include <osg/Viewport>
 
 #include <string>
 
@@ -55,6 +56,7 @@ private:
     osg::State& _state;
     GLint _draw = 0, _read = 0;
     GLint _viewport[4] = {};
+    osg::ref_ptr<const osg::Viewport> _applied; ///< As `_state` has it.
     GLfloat _color[4] = {};
     GLdouble _depth = 1.0;
     GLboolean _hasScissor = GL_FALSE;

@@ -9,6 +9,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <utility>
@@ -22,14 +23,16 @@ namespace
 /// A file that is damaged and was written this short a time ago may still be on its way.
 constexpr std::int64_t RecentNanoseconds = 10000000000;
 
-bool isRetried(const ImageError& error, const std::string& file)
+/// `before`: of the file when it last failed as damaged. One that has not changed since is damaged
+/// for good, however young it is.
+bool isRetried(const ImageError& error, const std::optional<FileStamp>& now,
+               const std::optional<FileStamp>& before)
 {
-    if (error.getKind() == ImageError::Kind::Damaged)
+    if (error.getKind() != ImageError::Kind::Damaged)
     {
-        const auto stamp = stampOf(file);
-        return !stamp || stamp->modified + RecentNanoseconds > wallClock();
+        return error.getKind() == ImageError::Kind::Unreadable;
     }
-    return error.getKind() == ImageError::Kind::Unreadable;
+    return !now || (now->modified + RecentNanoseconds > wallClock() && now != before);
 }
 
 using RequestKey = std::tuple<std::string, std::string, int, int>;
@@ -45,6 +48,7 @@ struct Ticket
     unsigned int callers = 1;
     WorkerPool::JobId job = 0;
     std::size_t attempts = 0; ///< That failed.
+    std::optional<FileStamp> damagedAs{};
     bool previewDone = false;
 
     bool wantsPreview() const { return request.previewSide > 0 && !previewDone; }
@@ -73,7 +77,8 @@ public:
     void work(RequestId id, const std::atomic<bool>& cancelled);
     void finish(RequestId id, ChainSource::Result loaded);
     void name(const std::string& file, const std::string& error);
-    void fail(RequestId id, const std::string& error, bool retried);
+    void fail(RequestId id, const std::string& error, bool retried,
+              const std::optional<FileStamp>& stamp = {});
 
     const std::vector<double> retrySeconds;
     MemoryBudget memory;
@@ -109,6 +114,7 @@ void ChainLoader::State::work(RequestId id, const std::atomic<bool>& cancelled)
     }
     const ChainRequest request = found->second.request;
     const bool wantPreview = found->second.wantsPreview();
+    const std::optional<FileStamp> damagedAs = found->second.damagedAs;
     lock.unlock();
     try
     {
@@ -118,7 +124,8 @@ void ChainLoader::State::work(RequestId id, const std::atomic<bool>& cancelled)
     {
         if (error.getKind() != ImageError::Kind::Cancelled)
         {
-            fail(id, error.what(), isRetried(error, request.file));
+            const std::optional<FileStamp> now = stampOf(request.file);
+            fail(id, error.what(), isRetried(error, now, damagedAs), now);
         }
     }
     catch (const std::bad_alloc&)
@@ -168,7 +175,8 @@ void ChainLoader::State::name(const std::string& file, const std::string& error)
     }
 }
 
-void ChainLoader::State::fail(RequestId id, const std::string& error, bool retried)
+void ChainLoader::State::fail(RequestId id, const std::string& error, bool retried,
+                              const std::optional<FileStamp>& stamp)
 {
     const std::lock_guard<std::mutex> lock(mutex);
     const auto found = tickets.find(id);
@@ -180,6 +188,7 @@ void ChainLoader::State::fail(RequestId id, const std::string& error, bool retri
     if (retried && ticket.attempts < retrySeconds.size())
     {
         ++statistics.retried;
+        ticket.damagedAs = stamp;
         schedule(id, ticket, retrySeconds[ticket.attempts++]);
         return;
     }

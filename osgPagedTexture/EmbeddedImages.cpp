@@ -89,6 +89,22 @@ std::vector<unsigned char> tgaOf(const osg::Image& image)
     return file;
 }
 
+/// A texel of tgaOf() as it was.
+void unpack(const unsigned char* from, GLenum format, unsigned char* to)
+{
+    const int first = isBgr(format) ? 0 : 2;
+    to[0] = channelsOf(format) == 1 || format == GL_LUMINANCE_ALPHA ? from[0] : from[first];
+    if (format == GL_LUMINANCE_ALPHA)
+        to[1] = from[3];
+    else if (channelsOf(format) > 1)
+    {
+        to[1] = from[1];
+        to[2] = from[2 - first];
+        if (channelsOf(format) == 4)
+            to[3] = from[3];
+    }
+}
+
 std::string makeFolder()
 {
     std::error_code error;
@@ -118,6 +134,26 @@ std::string EmbeddedImages::obstacle(const osg::Image& image)
     if (image.s() * image.t() < LeastTexels)
         return "it is small";
     return {};
+}
+
+osg::ref_ptr<osg::Image> EmbeddedImages::read(const std::string& file, GLenum format)
+{
+    constexpr std::size_t head = 18;
+    std::ifstream stream(file, std::ios::binary);
+    const std::vector<char> text{std::istreambuf_iterator<char>(stream), {}};
+    const auto* bytes = reinterpret_cast<const unsigned char*>(text.data());
+    const std::size_t channels = std::size_t(channelsOf(format));
+    if (text.size() < head || channels == 0)
+        return nullptr;
+    const int width = bytes[12] | bytes[13] << 8, height = bytes[14] | bytes[15] << 8;
+    if (text.size() != head + std::size_t(width) * height * channels)
+        return nullptr;
+    osg::ref_ptr<osg::Image> image = new osg::Image;
+    image->allocateImage(width, height, 1, format, GL_UNSIGNED_BYTE, 1);
+    const std::size_t step = osg::Image::computeNumComponents(format);
+    for (std::size_t i = 0; i < std::size_t(width) * height; ++i)
+        unpack(bytes + head + i * channels, format, image->data() + i * step);
+    return image;
 }
 
 std::string EmbeddedImages::keep(const osg::Image& image)

@@ -29,6 +29,10 @@ public:
     /// Writes it and returns the file; equal images have one. Empty where nothing can be written.
     std::string keep(const osg::Image& image);
 
+    /// What keep() has written, in the pixel format that the image had; null where the file is
+    /// gone.
+    static osg::ref_ptr<osg::Image> read(const std::string& file, GLenum format);
+
 private:
     std::mutex _mutex;
     std::string _folder;

@@ -16,6 +16,20 @@ namespace
 
 constexpr std::size_t PieceBytes = 1 << 20;
 
+ChangedFile describe(const std::string& file)
+{
+    ChangedFile changed{file, {}, {}};
+    try
+    {
+        changed.info = readImageInfo(file);
+    }
+    catch (const ImageError& error)
+    {
+        changed.error = error.what();
+    }
+    return changed;
+}
+
 } // namespace
 
 FileWatch::FileWatch(double intervalSeconds) : _interval(intervalSeconds) {}
@@ -72,7 +86,7 @@ void FileWatch::remove(const std::string& file)
         _files.erase(found);
 }
 
-std::vector<std::string> FileWatch::takeChanged()
+std::vector<ChangedFile> FileWatch::takeChanged()
 {
     std::lock_guard<std::mutex> lock(_mutex);
     return std::exchange(_changed, {});
@@ -110,13 +124,15 @@ void FileWatch::look(const std::string& file)
         return;
     lock.unlock();
     const std::uint64_t content = contentOf(file);
+    // One that changed before its content was known is taken for new.
+    const bool isChanged = content != 0 && (before == 0 ? isNew : content != before);
+    ChangedFile changed = isChanged ? describe(file) : ChangedFile();
     lock.lock();
     const auto again = _files.find(file);
     if (again == _files.end() || content == 0)
         return;
-    // One that changed before its content was known is taken for new.
-    if (before == 0 ? isNew : content != before)
-        _changed.push_back(file);
+    if (isChanged)
+        _changed.push_back(std::move(changed));
     again->second.content = content;
     again->second.known = now;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgPagedTexture/Export.h>
+#include <osgPagedTexture/ImageFile.h>
 
 #include <condition_variable>
 #include <cstdint>
@@ -14,8 +14,16 @@
 namespace osgPagedTexture
 {
 
-/// Looks at files again and again, and tells which have new content. Its thread starts with the
-/// first file. Any thread may call it.
+/// A picture that was changed, and what its header says now.
+struct ChangedFile
+{
+    std::string file;
+    ImageInfo info;
+    std::string error; ///< Why there is no `info`; empty where there is.
+};
+
+/// Looks at files of pictures again and again, and tells which have new content. Its thread, which
+/// reads their headers too, starts with the first file. Any thread may call it.
 class OSGPAGEDTEXTURE_EXPORT FileWatch
 {
 public:
@@ -30,7 +38,7 @@ public:
 
     /// Files that hold something else than before, each once a change, when writing has rested for
     /// one interval. A file that is gone is no change; one that is back with other content is.
-    std::vector<std::string> takeChanged();
+    std::vector<ChangedFile> takeChanged();
 
 private:
     struct Stamp
@@ -59,7 +67,7 @@ private:
     std::condition_variable _wake;
     bool _ends = false;
     std::map<std::string, Watched> _files;
-    std::vector<std::string> _changed;
+    std::vector<ChangedFile> _changed;
     std::thread _thread;
 };
 

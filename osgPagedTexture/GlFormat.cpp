@@ -22,7 +22,7 @@ GlFormat glFormatOf(BlockFormat format)
     case BlockFormat::R8:
         return {R8, Red, {r, r, r, one}};
     case BlockFormat::RG8:
-        return {Rg8, Rg, {r, r, r, g}};
+        return {Rg8, Rg, {r, g, one, one}};
     case BlockFormat::RGB8:
         return {Rgb8, GL_RGB, {r, g, b, a}};
     case BlockFormat::BC1:
@@ -32,7 +32,7 @@ GlFormat glFormatOf(BlockFormat format)
     case BlockFormat::BC4:
         return {Rgtc1, Red, {r, r, r, one}};
     case BlockFormat::BC5:
-        return {Rgtc2, Rg, {r, r, r, g}};
+        return {Rgtc2, Rg, {r, g, one, one}};
     case BlockFormat::BC7:
         return {Bptc, GL_RGBA, {r, g, b, a}};
     case BlockFormat::RGBA8:

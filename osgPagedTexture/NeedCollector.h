@@ -4,6 +4,7 @@
 #include <osgPagedTexture/Pager.h>
 
 #include <osg/Drawable>
+#include <osg/Viewport>
 #include <osg/observer_ptr>
 #include <osgUtil/CullVisitor>
 
@@ -36,6 +37,9 @@ private:
 
 /// Finds the surfaces in a subgraph and takes them into the cache, so that no frame has to.
 void findSurfaces(osg::Node& node, SurfaceCache& cache);
+
+/// What a projection shows in a viewport, from the eye itself.
+TexelView viewThrough(const osg::Matrixd& projection, const osg::Viewport* viewport);
 
 /// What the leaves that were culled below a StateGraph need of a pager's textures. `moved` is where
 /// the eye will be, in eye coordinates.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/PagedScene.h>
 
+#include <osgPagedTexture/EyeMotion.h>
 #include <osgPagedTexture/FileImages.h>
 #include <osgPagedTexture/NeedCollector.h>
 #include <osgPagedTexture/PagedGraph.h>
@@ -9,6 +10,8 @@
 #include <osgPagedTexture/PagedOptions.h>
 #include <osgPagedTexture/PagedTextures.h>
 #include <osgPagedTexture/Pager.h>
+#include <osgPagedTexture/SoonCollector.h>
+#include <osgPagedTexture/ThreadClock.h>
 
 #include <osg/GraphicsContext>
 #include <osg/Notify>
@@ -50,13 +53,9 @@ private:
 
 struct PagedScene::Views
 {
-    struct Eye
-    {
-        osg::Vec3d place; ///< In coordinates of the scene.
-        double time = 0.0;
-    };
     std::mutex mutex;
-    std::map<const osg::Camera*, Eye> eyes;
+    std::map<const osg::Camera*, EyeMotion> eyes; ///< In coordinates of the scene.
+    double prefetchMilliseconds = 0.0;            ///< Of the last frame.
     std::map<osg::GraphicsContext*, osg::observer_ptr<osg::GraphicsContext>> contexts;
     PagedGraph graph;
 };
@@ -72,7 +71,7 @@ PagedScene::PagedScene()
 PagedScene::PagedScene(const PagedScene& other, const osg::CopyOp& copyop)
     : osg::Group(other, copyop), osgMultiRender::Planned(), _settings(other._settings),
       _pager(other._pager), _surfaces(other._surfaces), _scope(new osg::StateSet),
-      _views(std::make_unique<Views>()), _isInstalled(other._isInstalled), _left(other._left)
+      _views(std::make_unique<Views>()), _savedImages(), _isInstalled(other._isInstalled), _left(other._left)
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
@@ -164,17 +163,12 @@ void PagedScene::cull(osgUtil::CullVisitor& visitor)
     const unsigned int frame = stamp ? stamp->getFrameNumber() : 0;
     _pager->advance(frame);
 
-    osg::Vec3d moved;
+    EyeMotion motion;
     {
-        const osg::Matrixd toEye(*visitor.getModelViewMatrix());
-        const double time = stamp ? stamp->getReferenceTime() : 0.0;
-        const osg::Vec3d place = osg::Vec3d() * osg::Matrixd::inverse(toEye);
         std::lock_guard<std::mutex> lock(_views->mutex);
-        Views::Eye& eye = _views->eyes[visitor.getCurrentCamera()];
-        if (eye.time > 0.0 && time > eye.time)
-            moved = osg::Matrixd::transform3x3(
-                (place - eye.place) * (_settings.prefetchSeconds / (time - eye.time)), toEye);
-        eye = {place, time};
+        EyeMotion& eye = _views->eyes[visitor.getCurrentCamera()];
+        eye.see(*visitor.getModelViewMatrix(), stamp ? stamp->getReferenceTime() : 0.0);
+        motion = eye;
         osg::GraphicsContext* context =
             visitor.getState() ? visitor.getState()->getGraphicsContext() : nullptr;
         osg::observer_ptr<osg::GraphicsContext>* known =
@@ -192,7 +186,30 @@ void PagedScene::cull(osgUtil::CullVisitor& visitor)
     visitor.popStateSet();
     if (_settings.graph)
         _views->graph.cull(visitor, *_pager);
-    _pager->report(collectDemands(*graph, visitor, *_pager, *_surfaces, moved), frame);
+    const double ahead = _settings.prefetchSeconds;
+    _pager->report(
+        collectDemands(*graph, visitor, *_pager, *_surfaces, motion.placeAfter(ahead)), frame);
+    if (ahead > 0.0 && !motion.isStill())
+        lookAhead(visitor, motion, ahead, frame);
+}
+
+/// What the eye will see half of the time ahead and all of it, in turns: what comes into view from
+/// the sides and from behind corners has no leaf yet.
+void PagedScene::lookAhead(osgUtil::CullVisitor& visitor, const EyeMotion& motion, double seconds,
+                           unsigned int frame)
+{
+    const double start = threadMilliseconds();
+    const osg::Matrixd projection(*visitor.getProjectionMatrix());
+    SoonCollector collector(
+        *_pager, *_surfaces, viewThrough(projection, visitor.getViewport()), projection,
+        osg::Matrixd(*visitor.getModelViewMatrix()) *
+            motion.after(frame % 2 ? seconds : 0.5 * seconds));
+    collector.setTraversalMask(visitor.getTraversalMask());
+    collector.setNodeMaskOverride(visitor.getNodeMaskOverride());
+    osg::Group::traverse(collector);
+    _pager->report(collector.takeDemands(), frame);
+    std::lock_guard<std::mutex> lock(_views->mutex);
+    _views->prefetchMilliseconds = threadMilliseconds() - start;
 }
 
 std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
@@ -209,7 +226,9 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
         if (named++ >= maxPlanned)
             continue;
         const std::string size = std::to_string(line.width) + "x" + std::to_string(line.height);
-        osgMultiRender::PlanEntry entry{"texture '" + line.file + "' " + size, Decision::Drawn, {}};
+        constexpr const char* uses[] = {"", ", data", ", normals", ", normals (x, y)"};
+        osgMultiRender::PlanEntry entry{
+            "texture '" + line.file + "' " + size + uses[int(line.use)], Decision::Drawn, {}};
         if (line.failed)
             entry = {entry.subject, Decision::Dropped, "it can't be read; a placeholder is shown"};
         else if (line.wanted < 0 && line.level < 0)
@@ -224,9 +243,11 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
         plan.entries.push_back({std::to_string(named - maxPlanned) + " more textures",
                                 Decision::Folded, "only the first ones are listed"});
     std::vector<std::pair<std::string, std::string>> notPaged;
+    double prefetchMilliseconds = 0.0;
     {
         std::lock_guard<std::mutex> lock(_views->mutex);
         notPaged = _left;
+        prefetchMilliseconds = _views->prefetchMilliseconds;
     }
     for (const auto& [name, reason] : notPaged)
         plan.entries.push_back(
@@ -252,7 +273,10 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
                    {"upload.ms.p50", times.getPercentile(50.0)},
                    {"upload.ms.p99", times.getPercentile(99.0)},
                    {"upload.ms.max", times.getLargest()},
-                   {"plan.ms", statistics.planMilliseconds}};
+                   {"plan.ms", statistics.planMilliseconds},
+                   {"prefetch.ms", prefetchMilliseconds},
+                   {"texels.needed", statistics.neededTexels},
+                   {"texels.missing", statistics.missingTexels}};
     return {plan};
 }
 

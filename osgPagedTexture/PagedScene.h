@@ -4,6 +4,7 @@
 #include <osgPagedTexture/Export.h>
 #include <osgPagedTexture/PagedSettings.h>
 #include <osgPagedTexture/PagerStatistics.h>
+#include <osgPagedTexture/SavedImages.h>
 
 #include <osgMultiRender/Plan.h>
 
@@ -24,6 +25,7 @@ class CullVisitor;
 namespace osgPagedTexture
 {
 
+class EyeMotion;
 class FileImages;
 class Pager;
 class SurfaceCache;
@@ -77,6 +79,8 @@ private:
     struct Views;
 
     void cull(osgUtil::CullVisitor& visitor);
+    void lookAhead(osgUtil::CullVisitor& visitor, const EyeMotion& motion, double seconds,
+                   unsigned int frame);
     void take(osg::Node& subgraph, const FileImages* images);
 
     PagedSettings _settings;
@@ -84,6 +88,7 @@ private:
     const std::shared_ptr<SurfaceCache> _surfaces;
     const osg::ref_ptr<osg::StateSet> _scope; ///< Its leaves in a StateGraph of their own.
     const std::unique_ptr<Views> _views;
+    const SavedImages _savedImages;
     bool _isInstalled = false;
     std::vector<std::pair<std::string, std::string>> _left; ///< Not paged, and why.
 };

@@ -22,8 +22,9 @@ GLint chained(GLint own, const GLint (&format)[4])
 
 } // namespace
 
-PagedSubload::PagedSubload(std::shared_ptr<Pager> pager, unsigned int texture)
-    : _pager(std::move(pager)), _texture(texture), _state(_pager->getState(texture))
+PagedSubload::PagedSubload(std::shared_ptr<Pager> pager, unsigned int texture, PagedOrigin origin)
+    : _pager(std::move(pager)), _texture(texture), _state(_pager->getState(texture)),
+      _origin(std::move(origin))
 {
 }
 

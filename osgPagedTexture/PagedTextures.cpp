@@ -6,8 +6,10 @@
 
 #include <osg/ImageStream>
 #include <osg/NodeVisitor>
+#include <osgDB/ClassInterface>
 #include <osgDB/FileUtils>
 
+#include <cstdlib>
 #include <set>
 
 namespace osgPagedTexture
@@ -15,6 +17,13 @@ namespace osgPagedTexture
 
 namespace
 {
+
+/// A texture, and where it was met first.
+struct MetTexture
+{
+    osg::ref_ptr<osg::Texture> texture;
+    TextureSite site;
+};
 
 /// All textures of a subgraph, each once, in the order in which they are met.
 class TextureCollector : public osg::NodeVisitor
@@ -24,13 +33,24 @@ public:
 
     void apply(osg::Node& node) override
     {
-        if (osg::StateSet* stateSet = node.getStateSet())
+        const int outerBumpUnit = _bumpUnit;
+        if (node.className() == std::string("BumpMapping") &&
+            node.libraryName() == std::string("osgFX"))
+            osgDB::ClassInterface().getProperty(&node, "NormalMapTextureUnit", _bumpUnit);
+        osg::StateSet* stateSet = node.getStateSet();
+        if (stateSet)
+        {
+            _path.push_back(stateSet);
             collect(*stateSet);
+        }
         traverse(node);
+        if (stateSet)
+            _path.pop_back();
+        _bumpUnit = outerBumpUnit;
     }
     void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
 
-    std::vector<osg::ref_ptr<osg::Texture>> textures;
+    std::vector<MetTexture> met;
 
 private:
     void collect(osg::StateSet& stateSet)
@@ -41,12 +61,22 @@ private:
                 stateSet.getTextureAttribute(unit, osg::StateAttribute::TEXTURE);
             osg::Texture* texture = attribute ? attribute->asTexture() : nullptr;
             if (texture && _seen.insert(texture).second)
-                textures.push_back(texture);
+                met.push_back({texture, {_path, unit, _bumpUnit}});
         }
     }
 
     std::set<const osg::Texture*> _seen;
+    std::vector<const osg::StateSet*> _path;
+    int _bumpUnit = -1;
 };
+
+/// That the option BUMP=<unit> of the Wavefront reader says; -1 for none.
+int bumpUnitOf(const osgDB::Options* options)
+{
+    const std::string text = options ? " " + options->getOptionString() : std::string();
+    const std::size_t at = text.find(" BUMP=");
+    return at == std::string::npos ? -1 : std::atoi(text.c_str() + at + 6);
+}
 
 /// Why a texture that has an image can't be paged; empty where it can.
 std::string obstacle(const osg::Texture2D& texture)
@@ -70,7 +100,8 @@ bool hasMipmaps(const osg::Texture2D& texture)
     return mode != osg::Texture::LINEAR && mode != osg::Texture::NEAREST;
 }
 
-PagedImage imageOf(const std::string& file, const ImageInfo& info, const osg::Texture2D& texture)
+PagedImage imageOf(const std::string& file, const ImageInfo& info, const osg::Texture2D& texture,
+                   const TextureSite& site, const std::string& name)
 {
     PagedImage image;
     image.file = file;
@@ -78,6 +109,7 @@ PagedImage imageOf(const std::string& file, const ImageInfo& info, const osg::Te
     image.height = info.height;
     image.channels = info.channels;
     image.translucent = info.translucent;
+    image.use = useOf(texture, site, {name.empty() ? file : name, info.channels});
     image.anisotropy = texture.getMaxAnisotropy();
     // A texture without mip levels shows its finest one from anywhere.
     image.lodBias = hasMipmaps(texture) ? 0.0 : -64.0;
@@ -92,8 +124,9 @@ public:
     {
     }
 
-    void page(osg::Texture& texture)
+    void page(const MetTexture& met)
     {
+        osg::Texture& texture = *met.texture;
         osg::Texture2D* flat = dynamic_cast<osg::Texture2D*>(&texture);
         if (flat && dynamic_cast<const PagedSubload*>(flat->getSubloadCallback()))
             return; // Another scene's, or this one's already.
@@ -103,7 +136,7 @@ public:
         if (!flat || !reason.empty())
             leave(texture, reason);
         else if (flat->getImage())
-            pageFlat(*flat);
+            pageFlat(*flat, met.site);
     }
 
     std::vector<LeftTexture> left;
@@ -122,20 +155,25 @@ private:
         }
     }
 
-    void pageFlat(osg::Texture2D& texture)
+    void pageFlat(osg::Texture2D& texture, const TextureSite& site)
     {
         const osg::ref_ptr<osg::Image> image = texture.getImage();
         if (const FileImages::Found* found = _images ? _images->find(*image) : nullptr)
         {
-            give(texture, imageOf(found->file, found->info, texture), image->getFileName());
+            TextureSite here = site;
+            if (here.bumpUnit < 0)
+                here.bumpUnit = bumpUnitOf(found->options);
+            const std::string& name = image->getFileName();
+            give(texture, imageOf(found->file, found->info, texture, here, name),
+                 {name, found->file});
             return;
         }
-        if (!giveFile(texture, *image))
-            giveEmbedded(texture, *image);
+        if (!giveFile(texture, *image, site))
+            giveEmbedded(texture, *image, site);
     }
 
     /// The file that an image in memory was read from, where that still holds the same picture.
-    bool giveFile(osg::Texture2D& texture, const osg::Image& image)
+    bool giveFile(osg::Texture2D& texture, const osg::Image& image, const TextureSite& site)
     {
         const std::string file = osgDB::findDataFile(image.getFileName());
         if (file.empty() || image.isCompressed())
@@ -145,7 +183,8 @@ private:
             const ImageInfo info = readImageInfo(file);
             if (info.width != image.s() || info.height != image.t())
                 return false;
-            give(texture, imageOf(file, info, texture), image.getFileName());
+            const std::string& name = image.getFileName();
+            give(texture, imageOf(file, info, texture, site, name), {name, file});
             return true;
         }
         catch (const ImageError&)
@@ -154,7 +193,7 @@ private:
         }
     }
 
-    void giveEmbedded(osg::Texture2D& texture, const osg::Image& image)
+    void giveEmbedded(osg::Texture2D& texture, const osg::Image& image, const TextureSite& site)
     {
         std::string reason = EmbeddedImages::obstacle(image);
         const std::string file = reason.empty() ? _pager->getEmbedded().keep(image) : std::string();
@@ -169,14 +208,19 @@ private:
         info.height = image.t();
         info.channels = int(osg::Image::computeNumComponents(image.getPixelFormat()));
         info.translucent = image.isImageTranslucent();
-        // Not in files: the stand-in would be all that is left of it there.
-        give(texture, imageOf(file, info, texture), {});
+        PagedOrigin origin;
+        origin.name = image.getFileName();
+        origin.file = file;
+        origin.format = image.getPixelFormat();
+        origin.internalFormat = image.getInternalTextureFormat();
+        origin.hint = image.getWriteHint();
+        give(texture, imageOf(file, info, texture, site, origin.name), origin);
     }
 
-    void give(osg::Texture2D& texture, const PagedImage& image, const std::string& name)
+    void give(osg::Texture2D& texture, const PagedImage& image, const PagedOrigin& origin)
     {
-        texture.setImage(makeKeptStandIn(name, image.translucent));
-        texture.setSubloadCallback(new PagedSubload(_pager, _pager->add(image)));
+        texture.setImage(makeKeptStandIn(origin.name, image.translucent));
+        texture.setSubloadCallback(new PagedSubload(_pager, _pager->add(image), origin));
     }
 
     const std::shared_ptr<Pager> _pager;
@@ -191,8 +235,8 @@ std::vector<LeftTexture> pageTextures(osg::Node& node, const std::shared_ptr<Pag
     TextureCollector collector;
     node.accept(collector);
     Paging paging(pager, images);
-    for (const osg::ref_ptr<osg::Texture>& texture : collector.textures)
-        paging.page(*texture);
+    for (const MetTexture& met : collector.met)
+        paging.page(met);
     if (images)
         images->restoreHeld();
     return paging.left;

@@ -34,7 +34,7 @@ unsigned int Pager::add(const PagedImage& image)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const auto [found, isNew] =
-        _byFile.insert({{image.file, image.isNormalMap}, unsigned(_entries.size())});
+        _byFile.insert({{image.file, image.use}, unsigned(_entries.size())});
     if (!isNew)
     {
         Entry& entry = _entries[found->second];
@@ -60,7 +60,7 @@ void Pager::remove(unsigned int texture)
     Entry& entry = _entries[texture];
     if (--entry.users > 0)
         return;
-    _byFile.erase({entry.image.file, entry.image.isNormalMap});
+    _byFile.erase({entry.image.file, entry.image.use});
     cancel(texture);
     if (entry.isWatched)
         _watch->remove(entry.image.file);
@@ -91,7 +91,10 @@ void Pager::advance(unsigned int frame)
     advanceLocked();
     // What views of this frame see is the next one's need.
     for (Entry& entry : _entries)
+    {
+        entry.soonBefore = entry.soonPixels;
         entry.pixels = entry.soonPixels = 0.0;
+    }
 }
 
 void Pager::advanceLocked()
@@ -161,7 +164,7 @@ bool Pager::learnAbilities()
 void Pager::setFormat(Entry& entry)
 {
     const PagedImage& image = entry.image;
-    entry.format = formatFor(image.channels, image.translucent, image.isNormalMap,
+    entry.format = formatFor(image.channels, image.translucent, image.use,
                              _settings.compression, _abilities);
     std::vector<std::uint64_t>& bytes = _sizes[{image.width, image.height, entry.format}];
     if (bytes.empty())
@@ -212,7 +215,7 @@ void Pager::plan()
         wish.levels = int(entry.bytes->size()) - entry.finest;
         entry.need = wanted(entry.pixels);
         wish.need = entry.need;
-        wish.soon = wanted(entry.soonPixels);
+        wish.soon = wanted(std::max(entry.soonPixels, entry.soonBefore));
         const int there = coarsest(unsigned(i));
         wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
         wish.lastUsed = entry.lastUsed;

@@ -9,6 +9,7 @@
 #include <osgPagedTexture/PagerStatistics.h>
 #include <osgPagedTexture/Residency.h>
 #include <osgPagedTexture/TexelNeed.h>
+#include <osgPagedTexture/TextureUse.h>
 #include <osgPagedTexture/UploadQueue.h>
 
 #include <atomic>
@@ -30,7 +31,7 @@ struct PagedImage
     int height = 1;
     int channels = 3; ///< As Pixels::channels.
     bool translucent = false;
-    bool isNormalMap = false;
+    TextureUse use = TextureUse::Color;
     double anisotropy = 1.0;
     double lodBias = 0.0;
 };
@@ -95,6 +96,8 @@ public:
         bool failed = false;
         int width = 0;
         int height = 0;
+        TextureUse use = TextureUse::Color;
+        BlockFormat format = BlockFormat::RGBA8;
     };
     std::vector<Line> getLines() const;
 
@@ -132,6 +135,7 @@ private:
         const std::vector<std::uint64_t>* bytes = nullptr; ///< Null: not known before GL is.
         double pixels = 0.0;
         double soonPixels = 0.0;
+        double soonBefore = 0.0; ///< A frame earlier: views look at two times ahead in turns.
         double need = ResidencyWish::None;
         std::uint32_t lastUsed = 0;
         int target = -1;
@@ -156,7 +160,7 @@ private:
     bool learnAbilities();
     void takeEvents();
     void takeChanges();
-    void readAgain(unsigned int texture);
+    void loadAgain(unsigned int texture, const ImageInfo& info);
     void setFormat(Entry& entry);
     void takeResults();
     void accept(const ChainResult& result);
@@ -183,9 +187,9 @@ private:
     PagedSettings _settings;
     std::deque<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
-    ContextAbilities _abilities;                                  ///< What all contexts can do.
-    std::map<std::pair<std::string, bool>, unsigned int> _byFile; ///< And whether normals.
-    std::map<RequestId, std::vector<unsigned int>> _requests;     ///< Equal ones share a number.
+    ContextAbilities _abilities; ///< What all contexts can do.
+    std::map<std::pair<std::string, TextureUse>, unsigned int> _byFile;
+    std::map<RequestId, std::vector<unsigned int>> _requests; ///< Equal ones share a number.
     std::map<std::string, std::shared_ptr<const ChainRecipe>> _recipes;
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;

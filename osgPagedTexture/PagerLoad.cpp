@@ -17,29 +17,24 @@ void Pager::takeChanges()
 {
     if (!_watch)
         return;
-    for (const std::string& file : _watch->takeChanged())
-        for (unsigned int i = 0; i < _entries.size(); ++i)
-            if (_entries[i].users > 0 && _entries[i].image.file == file)
-                readAgain(i);
+    for (const ChangedFile& changed : _watch->takeChanged())
+    {
+        if (!changed.error.empty())
+            OSG_WARN << "osgPagedTexture: " << changed.error << "; what is there of it stays"
+                     << std::endl;
+        for (unsigned int i = 0; changed.error.empty() && i < _entries.size(); ++i)
+            if (_entries[i].users > 0 && _entries[i].image.file == changed.file)
+                loadAgain(i, changed.info);
+    }
 }
 
-void Pager::readAgain(unsigned int texture)
+void Pager::loadAgain(unsigned int texture, const ImageInfo& info)
 {
     Entry& entry = _entries[texture];
-    try
-    {
-        const ImageInfo info = readImageInfo(entry.image.file);
-        entry.image.width = info.width;
-        entry.image.height = info.height;
-        entry.image.channels = info.channels;
-        entry.image.translucent = info.translucent;
-    }
-    catch (const ImageError& error)
-    {
-        OSG_WARN << "osgPagedTexture: " << error.what() << "; what is there of it stays"
-                 << std::endl;
-        return;
-    }
+    entry.image.width = info.width;
+    entry.image.height = info.height;
+    entry.image.channels = info.channels;
+    entry.image.translucent = info.translucent;
     cancel(texture);
     setFormat(entry);
     entry.state->failed = false;
@@ -129,7 +124,7 @@ double Pager::priority(const Entry& entry, int there) const
 {
     const int levels = int(entry.bytes->size());
     const double gap = (there == UploadEvent::Gone ? levels : there) - entry.target;
-    const double pixels = std::max(entry.pixels, entry.soonPixels);
+    const double pixels = std::max({entry.pixels, entry.soonPixels, entry.soonBefore});
     const double size = std::isfinite(pixels) ? std::log2(1.0 + pixels) : 64.0;
     return (entry.pixels > 0.0 ? 1000.0 : 0.0) + 10.0 * gap + size;
 }
@@ -213,11 +208,12 @@ void Pager::ask(unsigned int texture)
         return;
     }
     cancel(texture);
-    const std::string key = formatName(entry.format) + (entry.image.isNormalMap ? "n" : "c") +
+    const std::string key = formatName(entry.format) + "." +
+                            std::to_string(int(entry.image.use)) + "." +
                             std::to_string(int(_settings.quality));
     std::shared_ptr<const ChainRecipe>& recipe = _recipes[key];
     if (!recipe)
-        recipe = recipeFor(entry.format, entry.image.isNormalMap, _settings.quality);
+        recipe = recipeFor(entry.format, entry.image.use, _settings.quality);
     ChainRequest request;
     request.file = entry.image.file;
     request.recipe = recipe;

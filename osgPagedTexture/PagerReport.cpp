@@ -2,6 +2,8 @@
 // What the pager tells of itself.
 #include <osgPagedTexture/Pager.h>
 
+#include <algorithm>
+
 namespace osgPagedTexture
 {
 
@@ -31,6 +33,18 @@ PagerStatistics Pager::getStatistics() const
         result.resident += coarsest(unsigned(i)) != UploadEvent::Gone ? 1 : 0;
         result.failed += entry.state->failed ? 1 : 0;
         result.wholeBytes += entry.bytes ? (*entry.bytes)[0] : 0;
+        if (entry.need < 0.0 || entry.state->failed)
+            continue;
+        const auto texels = [&](int level)
+        {
+            return double(levelSide(entry.image.width, level)) *
+                   levelSide(entry.image.height, level);
+        };
+        const double needed = texels(int(entry.need) + entry.finest);
+        const int there = coarsest(unsigned(i));
+        result.neededTexels += needed;
+        result.missingTexels +=
+            std::max(0.0, needed - (there == UploadEvent::Gone ? 0.0 : texels(there)));
     }
     result.changing = _changing;
     result.isWhole = _plan.isWhole;
@@ -57,7 +71,8 @@ std::vector<Pager::Line> Pager::getLines() const
         const Entry& entry = _entries[i];
         if (entry.users > 0)
             lines.push_back({entry.image.file, coarsest(unsigned(i)), entry.target, entry.need,
-                             entry.state->failed, entry.image.width, entry.image.height});
+                             entry.state->failed, entry.image.width, entry.image.height,
+                             entry.image.use, entry.format});
     }
     return lines;
 }

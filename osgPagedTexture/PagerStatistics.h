@@ -31,6 +31,8 @@ struct PagerStatistics
     std::size_t changing = 0; ///< That are not what they should be.
     bool isWhole = false;     ///< All fit at full size, nothing is paged.
     double bias = 0.0;        ///< See ResidencyPlan.
+    double neededTexels = 0.0;  ///< That what was in view in the last frame uses.
+    double missingTexels = 0.0; ///< Of them, those that are not there.
     std::uint64_t plannedBytes = 0;
     std::uint64_t wholeBytes = 0; ///< Of all of them at full size.
     double planMilliseconds = 0.0;

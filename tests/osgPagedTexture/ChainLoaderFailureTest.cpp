@@ -89,6 +89,17 @@ TEST_F(ChainLoaderFailureTest, AFileThatIsStillBeingWrittenIsTriedAgain)
     EXPECT_EQ(results[0].state, State::Complete);
 }
 
+TEST_F(ChainLoaderFailureTest, AYoungDamagedFileThatStaysAsItIsFailsAfterOneRetry)
+{
+    settings.retrySeconds = {0.05, 60.0, 60.0};
+    ChainLoader loader(settings);
+    loader.request(requestFor(folder.write("a.jpg", good.substr(0, good.size() / 2))));
+    const auto results = takeResults(loader);
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(results[0].state, State::Failed);
+    EXPECT_EQ(loader.getStatistics().retried, 1u);
+}
+
 TEST_F(ChainLoaderFailureTest, ADamagedFileFailsAtOnceAndIsNotCached)
 {
     ChainLoader loader(settings);

@@ -89,6 +89,28 @@ TEST_F(ImageFileTest, EveryOrientationIsShownAsExifDefinesIt)
     }
 }
 
+TEST_F(ImageFileTest, AnOrientationBetweenTheScansOfAJpegDoesNotCount)
+{
+    const Pixels picture = samplePicture(64, 40, 3);
+    JpegOptions options;
+    options.orientation = 6;
+    const std::string turned = encodeJpeg(picture, options);
+    const std::size_t segment = turned.find("\xFF\xE1"), bytes = segment + 2;
+    const std::size_t length = static_cast<unsigned char>(turned[bytes]) * 256 +
+                               static_cast<unsigned char>(turned[bytes + 1]) + 2;
+    options = {};
+    options.progressive = true;
+    std::string text = encodeJpeg(picture, options);
+    const std::size_t second = text.find("\xFF\xDA", text.find("\xFF\xDA") + 2);
+    ASSERT_NE(second, std::string::npos) << "no proof";
+    text.insert(second, turned, segment, length);
+    const std::string path = folder.write("late.jpg", text);
+    EXPECT_EQ(readImageInfo(path).width, 64);
+    const DecodedImage image = readImageFile(path);
+    ASSERT_EQ(image.pixels.width, 64);
+    EXPECT_GT(psnr(image.pixels, picture), 33.0);
+}
+
 TEST_F(ImageFileTest, AReducedPictureHasTheSizeOfItsMipLevel)
 {
     for (int width : {1, 7, 8, 9, 100, 133})
