@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Attributes, uniforms and texture units of a merged program.
+// Attributes and texture units of a merged program.
 #include <osgMultiRender/MergeProgram.h>
 
 #include <osgMultiRender/GlslVocabulary.h>
+#include <osgMultiRender/MergeUniforms.h>
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace osgMultiRender
 {
@@ -14,29 +14,6 @@ namespace
 {
 
 using Kind = MergeEntity::Kind;
-
-bool isSampler(std::string_view type)
-{
-    return type.substr(0, 7) == "sampler" || (type.size() > 8 && type.substr(1, 7) == "sampler");
-}
-
-/// Components of a built-in type; 0 for others.
-int componentsOf(const std::string& type)
-{
-    const auto digit = [&](std::size_t at)
-    { return at < type.size() && type[at] >= '2' && type[at] <= '4' ? type[at] - '0' : 0; };
-    const std::size_t vector = type.find("vec"), matrix = type.find("mat");
-    if (vector != std::string::npos && vector <= 1)
-    {
-        return digit(vector + 3);
-    }
-    if (matrix != std::string::npos && matrix <= 1)
-    {
-        const int columns = digit(matrix + 3), rows = digit(matrix + 5);
-        return columns * (rows ? rows : columns);
-    }
-    return isBuiltinType(type) && type != "void" ? 1 : 0;
-}
 
 struct Attribute
 {
@@ -58,16 +35,11 @@ public:
     void run()
     {
         _merged.attributes.clear();
-        _merged.uniforms.clear();
         _merged.textures.clear();
         MergeStatistics& s = _merged.statistics;
-        s.vertexSamplers = s.fragmentSamplers = s.textureUnits = 0;
-        s.vertexUniformComponents = s.fragmentUniformComponents = 0;
+        s.textureUnits = 0;
         attributes();
-        for (MergeProgram* program : _programs)
-        {
-            uniforms(*program);
-        }
+        planUniforms(_programs, _merged);
         units();
     }
 
@@ -200,162 +172,6 @@ private:
         return components == of ? "" : "." + std::string("xyzw").substr(0, std::size_t(components));
     }
 
-    void uniforms(MergeProgram& program)
-    {
-        std::map<std::string, std::size_t> made;
-        for (MergeStage* stage : {&program.vertex, &program.fragment})
-        {
-            const std::set<std::string>& used = stage->usedGlobals;
-            for (const auto& [name, entity] : stage->entities)
-            {
-                if (entity.kind == Kind::Uniform || entity.kind == Kind::Block)
-                {
-                    uniform(program, *stage, name, entity, used.count(name) != 0, made);
-                }
-            }
-        }
-    }
-
-    void uniform(MergeProgram& program, const MergeStage& stage, const std::string& name,
-                 const MergeEntity& entity, bool used, std::map<std::string, std::size_t>& made)
-    {
-        const bool isFragment = &stage == &program.fragment;
-        const MergeEntity::Place& place = entity.places.front();
-        const GlslSource& source = stage.shaders[place.shader].source;
-        MergedUniform one;
-        one.rendering = program.id;
-        one.name = name;
-        one.merged = entity.merged;
-        int components = 0;
-        if (entity.kind == Kind::Block)
-        {
-            const GlslBlock& block = source.blocks[place.index];
-            const GlslSpecifiers& specifiers = source.specifiers[block.specifiers];
-            if (!specifiers.has("uniform") && !specifiers.has("buffer"))
-            {
-                return;
-            }
-            one.type = "block";
-            one.ownBinding = layoutValue(source, specifiers, "binding");
-            one.binding =
-                made.count(name) ? 0 : bindingFor(one.ownBinding, specifiers.has("buffer"));
-        }
-        else
-        {
-            const GlslDeclaration& declared = source.declarations[place.index];
-            const bool instance = std::any_of(source.blocks.begin(), source.blocks.end(),
-                                              [&](const GlslBlock& block)
-                                              { return block.specifiers == declared.specifiers; });
-            one.inBlock = declared.kind == GlslDeclaration::Kind::BlockMember;
-            if (instance || (one.inBlock && entity.merged.empty()))
-            {
-                return;
-            }
-            one.type = source.specifiersOf(declared).type;
-            if (one.merged == name && name.compare(0, 4, "osg_") == 0 &&
-                _osgTypes.emplace(name, one.type).first->second != one.type)
-            {
-                program.fail(program.rendering->name + ": the uniform '" + name + "' is " +
-                             one.type + ", but " + _osgTypes[name] + " in another rendering");
-            }
-            std::vector<int> sizes;
-            arraySizes(source, declared.array, sizes);
-            arraySizes(source, source.specifiersOf(declared).typeArray, sizes);
-            int count = 1;
-            for (int size : sizes)
-            {
-                count = static_cast<int>(std::min(1LL * count * size, 1000000LL));
-            }
-            one.arraySize = sizes.empty() ? 0 : count;
-            components = used && !one.inBlock ? count * sizeOf(source, one.type, 0) : 0;
-            if (isSampler(one.type) && used)
-            {
-                samplers(program, one, source, declared);
-            }
-        }
-        MergeStatistics& s = _merged.statistics;
-        int& total = isFragment ? s.fragmentUniformComponents : s.vertexUniformComponents;
-        total = static_cast<int>(std::min(1LL * total + components, 1000000000LL));
-        const auto [found, added] = made.emplace(name, _merged.uniforms.size());
-        if (added)
-        {
-            _merged.uniforms.push_back(one);
-        }
-        MergedUniform& kept = _merged.uniforms[found->second];
-        if (kept.type != one.type)
-        {
-            program.fail(program.rendering->name + ": the uniform '" + name + "' is " + one.type +
-                         ", but " + kept.type + " in the vertex stage");
-        }
-        kept.units = kept.units.empty() ? one.units : kept.units;
-        kept.vertex = kept.vertex || !isFragment;
-        kept.fragment = kept.fragment || isFragment;
-        const int samplerCount = static_cast<int>(one.units.size());
-        (isFragment ? s.fragmentSamplers : s.vertexSamplers) += samplerCount;
-    }
-
-    /// The binding that a block asks for, if it is free, else the next free one.
-    int bindingFor(int asked, bool storage)
-    {
-        std::set<int>& taken = _bindings[storage ? 1 : 0];
-        int binding = std::max(asked, 0);
-        while (!taken.insert(binding).second)
-        {
-            ++binding;
-        }
-        return binding;
-    }
-
-    int sizeOf(const GlslSource& source, const std::string& type, int depth) const
-    {
-        if (isSampler(type) || depth > 8)
-        {
-            return 1;
-        }
-        const int components = componentsOf(type);
-        int sum = 0;
-        for (const GlslStruct& one : source.structs)
-        {
-            for (std::size_t member : one.members)
-            {
-                if (components || one.name != type || sum > 100000)
-                {
-                    break;
-                }
-                const GlslDeclaration& field = source.declarations[member];
-                std::vector<int> sizes;
-                arraySizes(source, field.array, sizes);
-                const int count = sizes.size() == 1 ? sizes[0] : 1;
-                sum += count * sizeOf(source, source.specifiersOf(field).type, depth + 1);
-            }
-        }
-        return components ? components : std::max(sum, 1);
-    }
-
-    /// The units that a sampler has in its own rendering; units() moves them.
-    void samplers(const MergeProgram& program, MergedUniform& one, const GlslSource& source,
-                  const GlslDeclaration& declared)
-    {
-        const RenderingUniform* known = program.rendering->findUniform(one.name);
-        const int bound = layoutValue(source, source.specifiersOf(declared), "binding");
-        for (int i = 0; i < std::max(one.arraySize, 1) && i < 256; ++i)
-        {
-            const auto index = static_cast<std::size_t>(i);
-            double unit = bound >= 0 ? bound + i : 0.0;
-            if (known && index < known->values.size())
-            {
-                unit = known->values[index];
-            }
-            one.units.push_back(unit >= 0.0 && unit < 256.0 ? static_cast<unsigned int>(unit) : 0);
-        }
-    }
-
-    struct Assigned
-    {
-        unsigned int unit;
-        std::string type;
-    };
-
     void units()
     {
         std::set<unsigned int> taken(_options.occupiedUnits.begin(), _options.occupiedUnits.end());
@@ -456,8 +272,6 @@ private:
     MergeNames& _names;
     const MergeOptions& _options;
     Merged& _merged;
-    std::set<int> _bindings[2];                   ///< Of uniform and of storage blocks.
-    std::map<std::string, std::string> _osgTypes; ///< Types of the uniforms that OSG sets.
 };
 
 } // namespace

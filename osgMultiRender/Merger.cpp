@@ -15,14 +15,23 @@ namespace
 using Kind = MergeEntity::Kind;
 using Programs = std::vector<MergeProgram*>;
 
-/// The first limit that is passed, as "17 fragment samplers, of 16"; empty if none is.
-std::string passedLimit(const MergeStatistics& s, const MergeLimits& limits)
+/// What is taken of one limit.
+struct Taken
 {
-    const struct
+    int value, limit;
+    const char* what;
+
+    bool isPassed() const { return value > limit; }
+    /// "17 fragment samplers of 16".
+    std::string toString() const
     {
-        int value, limit;
-        const char* what;
-    } all[] = {
+        return std::to_string(value) + " " + what + " of " + std::to_string(limit);
+    }
+};
+
+std::vector<Taken> takenOf(const MergeStatistics& s, const MergeLimits& limits)
+{
+    return {
         {s.varyingVectors, limits.varyingVectors, "varying vectors"},
         {s.fragmentSamplers, limits.fragmentSamplers, "fragment samplers"},
         {s.vertexSamplers, limits.vertexSamplers, "vertex samplers"},
@@ -32,14 +41,6 @@ std::string passedLimit(const MergeStatistics& s, const MergeLimits& limits)
          "fragment uniform components"},
         {s.vertexAttributes, limits.vertexAttributes, "vertex attributes"},
     };
-    for (const auto& one : all)
-    {
-        if (one.value > one.limit)
-        {
-            return std::to_string(one.value) + " " + one.what + " of " + std::to_string(one.limit);
-        }
-    }
-    return "";
 }
 
 class Merge
@@ -162,42 +163,72 @@ private:
             {
                 continue;
             }
-            if (passedLimit(_merged.statistics, _options.limits).empty())
+            const std::vector<Taken> all = takenOf(_merged.statistics, _options.limits);
+            const auto passed = std::find_if(all.begin(), all.end(),
+                                             [](const Taken& one) { return one.isPassed(); });
+            if (passed == all.end())
             {
                 return;
             }
-            leaveOut(programs);
+            leaveOut(programs, static_cast<std::size_t>(passed - all.begin()));
         }
     }
 
-    /// Finds where the limit is passed and leaves the least important program out.
-    void leaveOut(const Programs& programs)
+    /// What these programs take of one limit.
+    Taken measure(const Programs& programs, std::size_t limit)
     {
-        const auto passedBy = [&](std::size_t count)
+        measure(programs);
+        return takenOf(_merged.statistics, _options.limits)[limit];
+    }
+
+    /// Finds where the limit is passed and leaves the least important program out.
+    void leaveOut(const Programs& programs, std::size_t limit)
+    {
+        const auto takenBy = [&](std::size_t count)
         {
-            measure({programs.begin(), programs.begin() + static_cast<std::ptrdiff_t>(count)});
-            return passedLimit(_merged.statistics, _options.limits);
+            const auto end = programs.begin() + static_cast<std::ptrdiff_t>(count);
+            return measure({programs.begin(), end}, limit);
         };
         // With each rendering more is taken: the first count that passes, by halves.
         std::size_t fits = 0, passes = programs.size();
         while (passes - fits > 1)
         {
             const std::size_t middle = fits + (passes - fits) / 2;
-            (passedBy(middle).empty() ? fits : passes) = middle;
+            (takenBy(middle).isPassed() ? passes : fits) = middle;
         }
-        const std::string passed = passedBy(passes);
+        const std::string passed = takenBy(passes).toString();
         const MergeProgram* by = programs[passes - 1];
-        MergeProgram* least = programs.front();
-        for (MergeProgram* program : programs)
-        {
-            // Of equal ones the last, but the base as long as another one is there.
-            const double weight = _entries[program->id].importance;
-            const double lowest = _entries[least->id].importance;
-            const bool base = program->id == _options.base && programs.size() > 1;
-            least = (weight <= lowest || least->id == _options.base) && !base ? program : least;
-        }
+        MergeProgram* least = leastThatHelps(programs, limit);
         least->fail(least->rendering->name + ": left out: with '" + by->rendering->name +
                     "' the program has " + passed);
+    }
+
+    /// The least important one without which less is taken; where all is shared, of all.
+    MergeProgram* leastThatHelps(const Programs& programs, std::size_t limit)
+    {
+        Programs order = programs;
+        // Of equal ones the last, but the base as long as another one is there.
+        std::reverse(order.begin(), order.end());
+        std::stable_sort(order.begin(), order.end(),
+                         [&](const MergeProgram* a, const MergeProgram* b)
+                         {
+                             const bool baseA = a->id == _options.base;
+                             const bool baseB = b->id == _options.base;
+                             return baseA != baseB
+                                        ? baseB
+                                        : _entries[a->id].importance < _entries[b->id].importance;
+                         });
+        const int all = measure(programs, limit).value;
+        for (MergeProgram* candidate : order)
+        {
+            Programs others = programs;
+            others.erase(std::find(others.begin(), others.end(), candidate));
+            if (measure(others, limit).value < all)
+            {
+                return candidate;
+            }
+        }
+        return order.front();
     }
 
     void write()
@@ -334,6 +365,10 @@ const MergedUniform* Merged::findUniform(std::size_t rendering, const std::strin
 
 std::string Merged::nameOf(std::size_t rendering, const std::string& name) const
 {
+    if (const MergedUniform* member = findUniform(rendering, name))
+    {
+        return member->merged;
+    }
     const std::size_t end = std::min(name.find_first_of(".["), name.size());
     const MergedUniform* uniform = findUniform(rendering, name.substr(0, end));
     return uniform ? uniform->merged + name.substr(end) : "";

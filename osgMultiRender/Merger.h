@@ -33,13 +33,15 @@ enum class MergeOutside
 struct MergeEntry
 {
     const Rendering* rendering = nullptr; ///< Must live while mergeRenderings() runs.
-    double importance = 1.0; ///< Where limits are passed, the least one is left out first.
+    double importance = 1.0; ///< Where a limit is passed, the least one that counts for it goes.
 };
 
 struct MergeOptions
 {
     GlslVersion version{330, GlslVersion::Profile::Compatibility}; ///< At least; 330 or more.
-    std::size_t base = 0; ///< Index of the entry that gives gl_Position and point sizes.
+    /// Index of the entry that gives gl_Position and point sizes, and goes last where limits are
+    /// passed. That of no entry: the first one of those that are in gives them.
+    std::size_t base = 0;
 
     /// GLSL that defines `float osgmr_weight(int rendering)`, with the uniforms that it needs.
     /// `rendering` is an entry's index. Empty: all weights are 1 / the number of renderings.
@@ -72,7 +74,9 @@ struct MergedFile
 struct MergedUniform
 {
     std::size_t rendering = 0;
-    std::string name;     ///< As the rendering's author knows it; of a block: the block's name.
+    /// As the rendering's author knows it; of a block: the block's name. Members of structs are
+    /// there by themselves, too: "lights[1].color".
+    std::string name;
     std::string merged;   ///< In the merged program.
     std::string type;     ///< "block" for uniform and storage blocks.
     bool inBlock = false; ///< A member of a block without a name: set by the block's buffer.

@@ -21,16 +21,17 @@ MixDraw::MixDraw(std::shared_ptr<MixResources> resources,
 {
 }
 
-void MixDraw::begin(osg::State& state, const osg::Matrixd& keysToEye)
+void MixDraw::begin(osg::State& state, const osg::Matrixd& keysToEye, GetParts getParts)
 {
+    _getParts = std::move(getParts);
     _contextID = state.getContextID();
     const std::shared_ptr<const MixSnapshot> wanted = _snapshot;
     _snapshot = _resources->programs.withoutBroken(wanted, state);
     for (std::size_t i = 0; i < _snapshot->slots.size(); ++i)
         if (_snapshot->slots[i].id != wanted->slots[i].id)
             _replaced.push_back(i);
-    _frame = _resources->programs.begin(_snapshot, state);
-    _weights = weightsOf(*_snapshot);
+    _frame = _resources->programs.begin(_snapshot, state, [this] { return getShares(); });
+    _weights = weightsOf(*_snapshot, _frame.isShown);
     {
         std::lock_guard<std::mutex> lock(_resources->mutex);
         auto& free = _resources->free[_contextID];
@@ -59,22 +60,32 @@ void MixDraw::end()
     std::lock_guard<std::mutex> lock(_resources->mutex);
     _resources->free[_contextID].push_back(_state);
     _state = nullptr;
+    _getParts = nullptr;
 }
 
 /// Renderings that are not shown have no range, so that the rules do not count them.
-MixWeights MixDraw::weightsOf(const MixSnapshot& snapshot) const
+MixWeights MixDraw::weightsOf(const MixSnapshot& snapshot, const std::vector<bool>& isShown) const
 {
     std::vector<MixRange> ranges;
     for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
     {
         constexpr double never = std::numeric_limits<double>::infinity();
-        ranges.push_back(_frame.isShown[i] ? snapshot.slots[i].range
-                                           : MixRange{never, never, never, never});
+        ranges.push_back(isShown[i] ? snapshot.slots[i].range
+                                    : MixRange{never, never, never, never});
     }
     MixRules rules = snapshot.rules;
-    if (rules.base >= int(ranges.size()) || (rules.base >= 0 && !_frame.isShown[rules.base]))
+    if (rules.base >= int(ranges.size()) || (rules.base >= 0 && !isShown[rules.base]))
         rules.base = -1;
     return MixWeights(ranges, rules);
+}
+
+MixSlotShares MixDraw::getShares() const
+{
+    std::vector<bool> isThere;
+    for (const MixSlot& slot : _snapshot->slots)
+        isThere.push_back(slot.rendering != nullptr);
+    return sharesOf(*_snapshot->points, weightsOf(*_snapshot, isThere),
+                    _getParts ? _getParts() : std::vector<MixPart>());
 }
 
 void MixDraw::fillPlan(Plan& plan) const

@@ -4,10 +4,12 @@
 
 #include <osgMultiRender/MixFrameTargets.h>
 #include <osgMultiRender/MixPrograms.h>
+#include <osgMultiRender/MixShares.h>
 #include <osgMultiRender/MixState.h>
 #include <osgMultiRender/Plan.h>
 #include <osgMultiRender/TargetPool.h>
 
+#include <functional>
 #include <mutex>
 
 namespace osgMultiRender
@@ -33,8 +35,10 @@ class MixDraw
 public:
     MixDraw(std::shared_ptr<MixResources> resources, std::shared_ptr<const MixSnapshot> snapshot);
 
-    /// At the head of the frame, with the context current.
-    void begin(osg::State& state, const osg::Matrixd& keysToEye);
+    /// What is seen, in the frame of the key points.
+    using GetParts = std::function<std::vector<MixPart>()>;
+    /// At the head of the frame, with the context current. `getParts` lives until end().
+    void begin(osg::State& state, const osg::Matrixd& keysToEye, GetParts getParts);
     /// Gives back what begin() has taken.
     void end();
 
@@ -45,17 +49,20 @@ public:
     const MixWeights& getWeights() const { return _weights; }
     /// Null outside of begin() and end().
     osg::StateSet* getStateSet() const { return _state ? _state->getStateSet() : nullptr; }
+    /// How much each rendering counts in the picture, whether it is shown or not.
+    MixSlotShares getShares() const;
     /// What is left out, and the counts of the programs.
     void fillPlan(Plan& plan) const;
 
 private:
-    MixWeights weightsOf(const MixSnapshot& snapshot) const;
+    MixWeights weightsOf(const MixSnapshot& snapshot, const std::vector<bool>& isShown) const;
 
     std::shared_ptr<MixResources> _resources;
     std::shared_ptr<const MixSnapshot> _snapshot;
     std::vector<std::size_t> _replaced; ///< Slots that show what they had before.
     MixPrograms::Frame _frame;
     MixWeights _weights;
+    GetParts _getParts;
     osg::ref_ptr<MixState> _state;
     unsigned int _contextID = 0;
 };

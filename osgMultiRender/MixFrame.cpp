@@ -27,9 +27,10 @@ class MixFrame : public osg::Drawable
 {
 public:
     MixFrame(osg::StateSet& stateSet, std::shared_ptr<MixResources> resources,
-             std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToEye)
+             std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToScene,
+             const osg::Matrixd& sceneToEye, const osg::BoundingSphere& bound)
         : _leafState(&stateSet), _resources(std::move(resources)), _snapshot(std::move(snapshot)),
-          _keysToEye(keysToEye)
+          _keysToScene(keysToScene), _keysToEye(keysToScene * sceneToEye), _bound(bound)
     {
         setUseDisplayList(false);
         setUseVertexBufferObjects(false);
@@ -46,10 +47,13 @@ public:
             why = "the eyes share the picture's pixels; choose a kind of stereo that splits it";
         if (why.empty())
         {
-            draw.begin(state, _keysToEye);
+            draw.begin(state, _keysToEye, [this] { return getParts(); });
             why = draw.getFrame().all ? drawMix(renderInfo, target, draw, plan)
                                       : "no rendering can be shown";
             draw.fillPlan(plan);
+            if (draw.getFrame().all)
+                _resources->programs.makeWanted({}, draw.shareSnapshot(), _keysToScene, state,
+                                                [&] { return draw.getShares(); });
             draw.end();
         }
         plan.entries.insert(
@@ -69,6 +73,22 @@ public:
     }
 
 private:
+    /// What the depths of the picture are of: the scene.
+    std::vector<MixPart> getParts() const
+    {
+        if (!_bound.valid())
+            return {};
+        const osg::Matrixd toKeys = osg::Matrixd::inverse(_keysToScene);
+        const osg::Vec3d center = osg::Vec3d(_bound.center()) * toKeys;
+        MixPart part;
+        part.box.center = {center.x(), center.y(), center.z()};
+        for (std::size_t i = 0; i < 3; ++i)
+            part.box.halfAxes[i] =
+                double(_bound.radius()) *
+                glm::dvec3(toKeys(int(i), 0), toKeys(int(i), 1), toKeys(int(i), 2));
+        return {part};
+    }
+
     /// Stereo where a stencil says which pixels an eye has.
     static bool isInterlaced(osg::RenderInfo& renderInfo)
     {
@@ -164,7 +184,8 @@ private:
     osg::ref_ptr<osg::StateSet> _leafState;
     std::shared_ptr<MixResources> _resources;
     std::shared_ptr<const MixSnapshot> _snapshot;
-    osg::Matrixd _keysToEye;
+    osg::Matrixd _keysToScene, _keysToEye;
+    osg::BoundingSphere _bound;
 };
 
 } // namespace
@@ -186,13 +207,13 @@ osg::ref_ptr<osg::StateSet> makeMixFrameState()
     return stateSet;
 }
 
-void addMixFrame(osgUtil::CullVisitor& visitor, osg::StateSet& stateSet, const osg::Vec3& center,
-                 std::shared_ptr<MixResources> resources,
-                 std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToEye)
+void addMixFrame(osgUtil::CullVisitor& visitor, osg::StateSet& stateSet,
+                 const osg::BoundingSphere& bound, std::shared_ptr<MixResources> resources,
+                 std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToScene)
 {
-    osg::ref_ptr<MixFrame> frame =
-        new MixFrame(stateSet, std::move(resources), std::move(snapshot), keysToEye);
-    frame->setInitialBound(osg::BoundingBox(center, center));
+    osg::ref_ptr<MixFrame> frame = new MixFrame(stateSet, std::move(resources), std::move(snapshot),
+                                                keysToScene, *visitor.getModelViewMatrix(), bound);
+    frame->setInitialBound(osg::BoundingBox(bound.center(), bound.center()));
     visitor.pushStateSet(&stateSet);
     // Past the tests for what is in view.
     visitor.addDrawableAndDepth(frame, visitor.getModelViewMatrix(), 0.0f);

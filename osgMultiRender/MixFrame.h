@@ -16,9 +16,9 @@ namespace osgMultiRender
 osg::ref_ptr<osg::StateSet> makeMixFrameState();
 
 /// Puts the pass into the view, under `stateSet`: when all else is drawn, the frame is copied and
-/// drawn over by its mix. `keysToEye` leads from the key points.
-void addMixFrame(osgUtil::CullVisitor& visitor, osg::StateSet& stateSet, const osg::Vec3& center,
-                 std::shared_ptr<MixResources> resources,
-                 std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToEye);
+/// drawn over by its mix. `bound` is that of the scene, `keysToScene` leads from the key points.
+void addMixFrame(osgUtil::CullVisitor& visitor, osg::StateSet& stateSet,
+                 const osg::BoundingSphere& bound, std::shared_ptr<MixResources> resources,
+                 std::shared_ptr<const MixSnapshot> snapshot, const osg::Matrixd& keysToScene);
 
 } // namespace osgMultiRender

@@ -52,22 +52,22 @@ void MixPass::cull(osgUtil::CullVisitor& visitor, SurfaceGroup&, const osg::Stat
     _isCulled = true;
 }
 
-void MixPass::begin(osg::RenderInfo& renderInfo, const SurfaceFrame&)
+void MixPass::begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame)
 {
     _eyeToKeys = osg::Matrixd::inverse(_keysToEye);
-    _draw.begin(*renderInfo.getState(), _keysToEye);
+    _draw.begin(*renderInfo.getState(), _keysToEye, [this, &frame] { return partsOf(frame); });
 }
 
-/// Those whose weight is not 0 all over the leaf.
-MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
+/// In the frame of the key points; not finite for a leaf without a bound.
+MixBox MixPass::boxOf(const osgUtil::RenderLeaf& leaf, double& margin) const
 {
     const osg::BoundingBox& bounds = leaf._drawable->getBoundingBox();
     osg::Matrixd toEye;
     if (leaf._modelview)
         toEye = *leaf._modelview;
-    MixBox box; // not finite: everything
+    MixBox box;
     box.center = glm::dvec3(std::numeric_limits<double>::quiet_NaN());
-    double margin = 0.0;
+    margin = 0.0;
     if (bounds.valid())
     {
         box = MixBox::from(toGlm(osg::Vec3d(bounds._min)), toGlm(osg::Vec3d(bounds._max)),
@@ -77,6 +77,31 @@ MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
                  ((osg::Vec3d(bounds.center()) * toEye).length() +
                   bounds.radius() * toEye.getScale().length());
     }
+    return box;
+}
+
+/// The leaves with the solid angles of spheres around them.
+std::vector<MixPart> MixPass::partsOf(const SurfaceFrame& frame) const
+{
+    std::vector<MixPart> parts;
+    const osg::Vec3d eye = osg::Vec3d() * _eyeToKeys;
+    frame.forEachLeaf(*this,
+                      [&](const osgUtil::RenderLeaf& leaf, bool)
+                      {
+                          double margin = 0.0;
+                          const MixBox box = boxOf(leaf, margin);
+                          const double away = glm::length(box.center - toGlm(eye));
+                          const double share = std::min(1.0, box.radius() / away);
+                          parts.push_back({box, share * share});
+                      });
+    return parts;
+}
+
+/// Those whose weight is not 0 all over the leaf.
+MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
+{
+    double margin = 0.0;
+    const MixBox box = boxOf(leaf, margin); // not finite: everything
     const std::vector<MixWeights::Bounds> weights =
         weightsOver(*_draw.getSnapshot().points, _draw.getWeights(), box, margin, MaxDistances);
     MixSet set;
@@ -119,7 +144,8 @@ void MixPass::end(osg::RenderInfo& renderInfo)
         if (!shown.program && set.members != _draw.getFrame().all->getSet().members)
             missing[set] = shown.leaves;
     _draw.getResources().programs.makeWanted(missing, _draw.shareSnapshot(), _keysToScene,
-                                             *renderInfo.getState());
+                                             *renderInfo.getState(),
+                                             [this] { return _draw.getShares(); });
 }
 
 void MixPass::drawn(osg::RenderInfo&)

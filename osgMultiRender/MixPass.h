@@ -44,6 +44,8 @@ private:
 
     void startVariant(osg::State& state, const SurfaceVariant& variant,
                       const osg::Viewport& viewport);
+    MixBox boxOf(const osgUtil::RenderLeaf& leaf, double& margin) const;
+    std::vector<MixPart> partsOf(const SurfaceFrame& frame) const;
     MixSet setOf(const osgUtil::RenderLeaf& leaf) const;
     std::string nameOf(const MixSet& set) const;
 

@@ -119,10 +119,12 @@ bool MixSet::has(std::uint16_t slot) const
                        [&](const Member& member) { return member.slot == slot; });
 }
 
-Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits)
+Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits,
+                const MixSlotShares& shares)
 {
     std::vector<MergeEntry> entries;
     MergeOptions options;
+    options.base = set.members.size(); // none
     for (const MixSet::Member& member : set.members)
     {
         if (snapshot.rules.base == member.slot)
@@ -130,9 +132,8 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
         const MixSlot* slot =
             member.slot < snapshot.slots.size() ? &snapshot.slots[member.slot] : nullptr;
         const bool isThere = slot && slot->id == member.id;
-        // Earlier ones are more important: they show nothing new when another one comes.
-        entries.push_back(
-            {isThere ? slot->rendering.get() : nullptr, 1.0 / (1.0 + double(entries.size()))});
+        const double share = member.slot < shares.size() ? shares[member.slot] : 1.0;
+        entries.push_back({isThere ? slot->rendering.get() : nullptr, share});
     }
     options.limits = limits;
     options.weights = weightsOf(set, snapshot.isOfFrame);
@@ -183,7 +184,8 @@ void MixProgram::addUniforms(const MixSnapshot& snapshot)
     for (const MergedUniform& merged : _merged.uniforms)
     {
         const osg::Uniform::Type type = osg::Uniform::getTypeId(merged.type);
-        if (type == osg::Uniform::UNDEFINED || merged.inBlock || merged.merged.compare(0, 4, "osg_") == 0)
+        if (type == osg::Uniform::UNDEFINED || merged.inBlock ||
+            merged.merged.compare(0, 4, "osg_") == 0)
             continue; // blocks and structs are the application's, osg_ is OSG's
         const int size = std::max(1, merged.arraySize);
         const std::uint16_t slot = _set.members[merged.rendering].slot;

@@ -52,8 +52,13 @@ class MixTextures;
 /// The texture unit of the sampler of mix.glsl; the table of units is in docs/design.md.
 constexpr unsigned int MixUnit = 11;
 
-/// Merges the renderings of a set. Entries of the result are its members, in order.
-Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits);
+/// How much each slot counts in the picture; empty: the earlier the more.
+using MixSlotShares = std::vector<double>;
+
+/// Merges the renderings of a set. Entries of the result are its members, in order. Where a limit
+/// is passed that of the least share goes.
+Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimits& limits,
+                const MixSlotShares& shares = {});
 
 /// Reads the files of the textures that the program of the set needs, so that MixProgram need not.
 void readTextures(const MixSet& set, const Merged& merged, const MixSnapshot& snapshot,
@@ -85,6 +90,7 @@ public:
     std::shared_ptr<const Values> valuesOf(const MixSnapshot& snapshot);
 
     std::uint64_t lastUsed = 0; ///< For the one who keeps it.
+    MixSlotShares shares;       ///< As they were when it was merged.
 
 protected:
     ~MixProgram() override = default;

@@ -60,7 +60,7 @@ MixPrograms::withoutBroken(const std::shared_ptr<const MixSnapshot>& snapshot, o
 {
     std::lock_guard<std::mutex> lock(_mutex);
     if (!_limits)
-        _limits = limitsOf(state);
+        _limits = limitsOf(state, snapshot->limits);
     forgetCombinations(*snapshot);
     tryNew(*snapshot, state);
     std::shared_ptr<MixSnapshot> changed;
@@ -84,12 +84,12 @@ bool MixPrograms::hasFailed(std::uint64_t id) const
 }
 
 MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& snapshot,
-                                      osg::State& state)
+                                      osg::State& state, const GetMixShares& getShares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     ++_frame;
     if (!_limits)
-        _limits = limitsOf(state);
+        _limits = limitsOf(state, snapshot->limits);
     tryNew(*snapshot, state);
     for (;;)
     {
@@ -100,12 +100,19 @@ MixPrograms::Frame MixPrograms::begin(const std::shared_ptr<const MixSnapshot>& 
             break;
         }
         if (_all && _all->getSet() == set)
+        {
+            // Made anew meanwhile, perhaps of others, where limits leave some out.
+            if (_job && _job->set == set && isReady())
+                claim(state);
+            if (const auto latest = _programs.find(set); latest != _programs.end())
+                _all = latest->second;
             break;
+        }
         const bool showsAny =
             _all && _all->getSet().isTransparent == set.isTransparent &&
             std::any_of(set.members.begin(), set.members.end(),
                         [&](const MixSet::Member& m) { return _all->covers(m.slot); });
-        osg::ref_ptr<MixProgram> made = build(set, snapshot, state, !showsAny);
+        osg::ref_ptr<MixProgram> made = build(set, snapshot, state, !showsAny, getShares);
         if (made)
             _all = made;
         if (made || !_broken.count(set))
@@ -233,12 +240,15 @@ osg::ref_ptr<MixProgram> MixPrograms::find(const MixSet& set)
 
 void MixPrograms::makeWanted(const std::map<MixSet, unsigned int>& missing,
                              const std::shared_ptr<const MixSnapshot>& snapshot,
-                             const osg::Matrixd& keysToScene, osg::State& state)
+                             const osg::Matrixd& keysToScene, osg::State& state,
+                             const GetMixShares& getShares)
 {
     std::lock_guard<std::mutex> lock(_mutex);
     const osg::FrameStamp* stamp = state.getFrameStamp();
     const unsigned int frame = stamp ? stamp->getFrameNumber() : static_cast<unsigned int>(_frame);
     _rest.see(snapshot->mixRevision, keysToScene, frame);
+    if (_rest.getQuietFrames(frame) == 0)
+        _ranking.reset();
     const MixSet* wanted = nullptr;
     unsigned int most = 0;
     for (const auto& [set, leaves] : missing)
@@ -249,14 +259,21 @@ void MixPrograms::makeWanted(const std::map<MixSet, unsigned int>& missing,
         }
     // The program of all comes first: the others only save time.
     const bool isWhole = _all && _all->getSet() == allOf(*snapshot);
-    if (wanted && isWhole && _rest.getQuietFrames(frame) >= snapshot->settleFrames)
-        build(*wanted, snapshot, state, snapshot->settleFrames == 0);
+    if (!isWhole || _rest.getQuietFrames(frame) < snapshot->settleFrames)
+        return;
+    if (wanted)
+        build(*wanted, snapshot, state, snapshot->settleFrames == 0, getShares);
+    if (_job)
+        return;
+    if (auto shares = _ranking.look(*_all, frame, snapshot->settleFrames, getShares))
+        start(_all->getSet(), snapshot, std::move(*shares));
 }
 
 /// Null where it is not ready, or broken.
 osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
                                             const std::shared_ptr<const MixSnapshot>& snapshot,
-                                            osg::State& state, bool waits)
+                                            osg::State& state, bool waits,
+                                            const GetMixShares& getShares)
 {
     const auto known = [&]
     {
@@ -272,7 +289,7 @@ osg::ref_ptr<MixProgram> MixPrograms::build(const MixSet& set,
         claim(state);
     if (const osg::ref_ptr<MixProgram> program = known(); program || _broken.count(set))
         return program;
-    start(set, snapshot);
+    start(set, snapshot, getShares());
     if (!waits)
         return nullptr;
     claim(state);
@@ -284,14 +301,15 @@ bool MixPrograms::isReady() const
     return _job->merged.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-void MixPrograms::start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot)
+void MixPrograms::start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot,
+                        MixSlotShares shares)
 {
     ++_counts.started;
-    _job = Job{set, snapshot,
+    _job = Job{set, snapshot, shares,
                std::async(std::launch::async,
-                          [this, set, snapshot, limits = *_limits]
+                          [this, set, snapshot, shares, limits = *_limits]
                           {
-                              Merged merged = mergeSet(set, *snapshot, limits);
+                              Merged merged = mergeSet(set, *snapshot, limits, shares);
                               if (merged.ok)
                                   readTextures(set, merged, *snapshot, _textures);
                               return merged;
@@ -322,7 +340,9 @@ void MixPrograms::claim(osg::State& state)
         return;
     }
     program->lastUsed = _frame;
+    program->shares = job.shares;
     _programs[job.set] = program;
+    _ranking.warn(*program);
 }
 
 bool MixPrograms::link(MixProgram& program, osg::State& state)

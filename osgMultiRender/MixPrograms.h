@@ -3,6 +3,7 @@
 #pragma once
 
 #include <osgMultiRender/MixProgram.h>
+#include <osgMultiRender/MixRanking.h>
 #include <osgMultiRender/MixRest.h>
 #include <osgMultiRender/MixTexture.h>
 
@@ -47,7 +48,8 @@ public:
     withoutBroken(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
     bool hasFailed(std::uint64_t id) const;
     /// At the head of a frame. Waits for a merge only where there is nothing to show yet.
-    Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state);
+    Frame begin(const std::shared_ptr<const MixSnapshot>& snapshot, osg::State& state,
+                const GetMixShares& getShares);
     /// The linked program of exactly this set, or null.
     osg::ref_ptr<MixProgram> find(const MixSet& set);
     /// At the end of each view's frame, with the sets that were wanted and are not there, each with
@@ -55,7 +57,8 @@ public:
     /// and it has been wanted, for as long as the snapshot says.
     void makeWanted(const std::map<MixSet, unsigned int>& missing,
                     const std::shared_ptr<const MixSnapshot>& snapshot,
-                    const osg::Matrixd& keysToScene, osg::State& state);
+                    const osg::Matrixd& keysToScene, osg::State& state,
+                    const GetMixShares& getShares);
 
     Counts getCounts() const;
     /// Of the program that shows all; "" before there is one.
@@ -69,6 +72,7 @@ private:
     {
         MixSet set;
         std::shared_ptr<const MixSnapshot> snapshot;
+        MixSlotShares shares;
         std::future<Merged> merged;
     };
 
@@ -78,8 +82,9 @@ private:
     MixSet allOf(const MixSnapshot& snapshot) const;
     osg::ref_ptr<MixProgram> build(const MixSet& set,
                                    const std::shared_ptr<const MixSnapshot>& snapshot,
-                                   osg::State& state, bool waits);
-    void start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot);
+                                   osg::State& state, bool waits, const GetMixShares& getShares);
+    void start(const MixSet& set, const std::shared_ptr<const MixSnapshot>& snapshot,
+               MixSlotShares shares);
     bool isReady() const;
     void claim(osg::State& state);
     bool link(MixProgram& program, osg::State& state);
@@ -99,6 +104,7 @@ private:
     std::set<std::uint64_t> _ids;                 ///< Of the last frame's renderings.
     std::uint64_t _frame = 0;                     ///< Of any view.
     MixRest _rest;
+    MixRanking _ranking;
     Counts _counts;
 };
 

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/Merger.h>
 #include <osgMultiRender/MixWeights.h>
 #include <osgMultiRender/Rendering.h>
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +41,7 @@ struct MixSnapshot
     bool prunes = true;
     unsigned int settleFrames = 10;
     std::size_t maxPrograms = 32;
+    std::optional<MergeLimits> limits; ///< Below the context's.
     std::uint64_t mixRevision = 0;     ///< Changes with points, ranges and rules.
     std::uint64_t uniformRevision = 0; ///< Changes with values of uniforms.
 };

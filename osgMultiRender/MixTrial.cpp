@@ -62,7 +62,7 @@ std::string tryProgram(const Merged& merged, osg::State& state)
     return log.empty() ? log : merged.explain(log);
 }
 
-MergeLimits limitsOf(osg::State& state)
+MergeLimits limitsOf(osg::State& state, const std::optional<MergeLimits>& most)
 {
     const MergeLimits least;
     MergeLimits limits;
@@ -78,6 +78,13 @@ MergeLimits limitsOf(osg::State& state)
     limits.fragmentUniformComponents =
         get(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS, least.fragmentUniformComponents) - 64;
     limits.vertexAttributes = get(GL_MAX_VERTEX_ATTRIBS, least.vertexAttributes);
+    if (most)
+        for (int MergeLimits::*each :
+             {&MergeLimits::version, &MergeLimits::varyingVectors, &MergeLimits::fragmentSamplers,
+              &MergeLimits::vertexSamplers, &MergeLimits::textureUnits,
+              &MergeLimits::vertexUniformComponents, &MergeLimits::fragmentUniformComponents,
+              &MergeLimits::vertexAttributes})
+            limits.*each = std::min(limits.*each, (*most).*each);
     return limits;
 }
 

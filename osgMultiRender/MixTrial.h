@@ -6,6 +6,7 @@
 
 #include <osg/State>
 
+#include <optional>
 #include <string>
 
 namespace osgMultiRender
@@ -17,6 +18,6 @@ namespace osgMultiRender
 std::string tryProgram(const Merged& merged, osg::State& state);
 
 /// What the context allows to one program, less what the mix itself needs.
-MergeLimits limitsOf(osg::State& state);
+MergeLimits limitsOf(osg::State& state, const std::optional<MergeLimits>& most);
 
 } // namespace osgMultiRender

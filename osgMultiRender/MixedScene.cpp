@@ -323,6 +323,16 @@ unsigned int MixedScene::getMaxPrograms() const
     return static_cast<unsigned int>(getSnapshot()->maxPrograms);
 }
 
+void MixedScene::setLimits(const MergeLimits* limits)
+{
+    change(
+        [&](MixSnapshot& snapshot)
+        {
+            snapshot.limits = limits ? std::make_optional(*limits) : std::nullopt;
+            _resources = std::make_shared<MixResources>();
+        });
+}
+
 void MixedScene::setMarks(MixMarks marks)
 {
     std::lock_guard<std::mutex> lock(_settings);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/Merger.h>
 #include <osgMultiRender/MixWeights.h>
 #include <osgMultiRender/Rendering.h>
 #include <osgMultiRender/SurfaceGroup.h>
@@ -121,6 +122,12 @@ public:
     /// So many are kept, at least; those of the frame beyond that.
     void setMaxPrograms(unsigned int programs);
     unsigned int getMaxPrograms() const;
+    /// Limits of programs below those of the context: for what an application has of its own, or
+    /// for tests. They count what renderings take, key points not included. Where one is passed the
+    /// rendering with the least weight in the picture that counts for it is left out; the plan and
+    /// a warning name both. When nothing moves and another one has the least weight, they change
+    /// places. Null: only those of the context. No part of the mix's text.
+    void setLimits(const MergeLimits* limits);
 
     void setMarks(MixMarks marks);
     MixMarks getMarks() const;

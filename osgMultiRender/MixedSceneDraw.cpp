@@ -68,8 +68,7 @@ void MixedScene::cullFrame(osg::NodeVisitor& visitor)
             _frameState = makeMixFrameState();
         state = _frameState;
     }
-    addMixFrame(*cullVisitor, *state, getBound().center(), getResources(), getSnapshot(),
-                keysToScene() * *cullVisitor->getModelViewMatrix());
+    addMixFrame(*cullVisitor, *state, getBound(), getResources(), getSnapshot(), keysToScene());
 }
 
 std::vector<Plan> MixedScene::getPlans() const

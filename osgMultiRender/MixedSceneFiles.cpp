@@ -93,7 +93,8 @@ void MixedScene::takeSettings(const MixedScene& other)
     const MixMarks marks = other.getMarks();
     const bool answersKeys = other.getAnswersKeys();
     std::lock_guard<std::mutex> lock(_settings);
-    if (_snapshot->isOfFrame != from->isOfFrame)
+    const bool keepsLimits = !_snapshot->limits && !from->limits;
+    if (_snapshot->isOfFrame != from->isOfFrame || !keepsLimits)
         _resources = std::make_shared<MixResources>();
     auto snapshot = std::make_shared<MixSnapshot>(*from);
     snapshot->mixRevision = _snapshot->mixRevision + 1;

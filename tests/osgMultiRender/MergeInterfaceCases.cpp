@@ -28,6 +28,33 @@ void main() { gl_FragColor = texture2D(wood, uv) * 0.5 + texture2D(model, uv.yx)
     return one;
 }
 
+/// A texture of its own in a member, the model's in others.
+Rendering samplersInStructs()
+{
+    Rendering one = mergeCase(
+        "samplersInStructs",
+        Head + R"(struct Layer { sampler2D map; vec2 scale; };
+struct Surface { Layer layers[2]; sampler2D maps[2]; vec3 tint; };
+uniform Surface surface;
+uniform Layer others[2];
+vec4 look(Layer layer) { return texture2D(layer.map, uv * layer.scale); }
+void main() { gl_FragColor = (look(surface.layers[0]) + look(surface.layers[1]) + look(others[1]) + texture2D(surface.maps[1], uv.yx)) * vec4(surface.tint, 1.0) * 0.5; })");
+    const auto set = [&](const char* name, const std::vector<double>& values)
+    {
+        one.uniforms.emplace_back();
+        one.uniforms.back().name = name;
+        one.uniforms.back().values = values;
+    };
+    set("surface.layers[0].map", {3});
+    set("surface.layers[1].map", {2});
+    set("surface.maps", {0, 1});
+    set("others[1].map", {2});
+    one.textures.resize(1);
+    one.textures[0].unit = 2;
+    one.textures[0].fileName = "stone.png";
+    return one;
+}
+
 Rendering boundAttribute()
 {
     Rendering one =
@@ -53,6 +80,7 @@ std::vector<Rendering> interfaceCases()
 {
     return {
         withTextures(),
+        samplersInStructs(),
         boundAttribute(),
         flatColors(),
         mergeCase("varyingsDeclaredTogether",

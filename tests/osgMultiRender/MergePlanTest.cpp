@@ -110,6 +110,39 @@ TEST(MergePlanTest, samplersOfOtherKindsNeverShareAUnit)
     EXPECT_NE(merged.findUniform(0, "t")->units, merged.findUniform(1, "t")->units);
 }
 
+TEST(MergePlanTest, samplersInStructsHaveUnitsAndTextures)
+{
+    Rendering b = mergeCase("b", Head + "struct Layer { sampler2D map; float scale; };\n"
+                                        "uniform Layer layers[2];\nvoid main() { gl_FragColor = "
+                                        "texture2D(layers[0].map, uv) * layers[1].scale + "
+                                        "texture2D(layers[1].map, uv); }");
+    RenderingTexture texture;
+    for (const char* name : {"layers[0].map", "layers[1].map"})
+    {
+        b.uniforms.emplace_back();
+        b.uniforms.back().name = name;
+        b.uniforms.back().values = {double(texture.unit)};
+        texture.fileName = std::string(1, 'x' + char(texture.unit)) + ".png";
+        b.textures.push_back(texture);
+        ++texture.unit;
+    }
+    MergeOptions options;
+    options.occupiedUnits = {0, 1, 2};
+    const Merged merged = merge({mergePartner(), b}, options);
+    const MergedUniform* first = merged.findUniform(1, "layers[0].map");
+    const MergedUniform* second = merged.findUniform(1, "layers[1].map");
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->merged, "layers_1[0].map");
+    EXPECT_EQ(first->units, std::vector<unsigned int>{3});
+    EXPECT_EQ(second->units, std::vector<unsigned int>{4});
+    EXPECT_EQ(merged.textures.size(), 2u);
+    EXPECT_EQ(merged.statistics.fragmentSamplers, 2);
+    EXPECT_EQ(merged.nameOf(1, "layers[1].scale"), "layers_1[1].scale");
+    options.limits.fragmentSamplers = 1;
+    EXPECT_NE(errorsOf(merge({mergePartner(), b}, options)).find("2 fragment samplers of 1"),
+              std::string::npos);
+}
+
 TEST(MergePlanTest, attributesKeepTheirBindings)
 {
     const std::string fragment = "varying vec3 t;\nvoid main() { gl_FragColor = vec4(t, 1.0); }";
