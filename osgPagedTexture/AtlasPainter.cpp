@@ -17,6 +17,15 @@ bool meet(const PixelRect& a, const PixelRect& b)
            b.y < a.y + a.height;
 }
 
+/// What both would paint would depend on which comes last.
+[[noreturn]] void refuseOverlap(const AtlasPhoto& a, const AtlasPhoto& b)
+{
+    throw TileStoreError(TileStoreError::Kind::Damaged,
+                         "osgPagedTexture::TileBuilder: the photographs '" + a.path + "' and '" +
+                             b.path +
+                             "' lie closer to each other than their padding; make the layout anew");
+}
+
 } // namespace
 
 void fillPixels(std::uint8_t* pixels, std::int64_t count, int channels, const TileColor& color)
@@ -122,13 +131,20 @@ void AtlasPainter::fillGaps(LevelRows& rows) const
         }
         const std::int64_t end = rows.getX() + rows.getWidth();
         std::int64_t x = rows.getX();
+        const PhotoPainter* left = nullptr;
         for (const auto& photo : _open)
         {
             const PixelRect& covered = photo->getCovered();
             if (covered.y <= edges[i] && covered.y + covered.height > edges[i])
             {
+                if (left && covered.x < left->getCovered().x + left->getCovered().width)
+                {
+                    refuseOverlap(_layout.photos[left->getIndex()],
+                                  _layout.photos[photo->getIndex()]);
+                }
                 fill(x, std::min(covered.x, end));
                 x = std::max(x, covered.x + covered.width);
+                left = photo.get();
             }
         }
         fill(x, end);

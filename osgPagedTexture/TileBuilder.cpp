@@ -183,6 +183,10 @@ TileBuildReport TileBuilder::build(TileWriter& store, TileWriter* kept, const Pr
                            {
                                store.put(key, tile);
                            }
+                           else if (_content->settings.everyTile)
+                           {
+                               store.put(key, TileData::uniform(_content->settings.background));
+                           }
                        }});
     TileStoreSettings keptSettings;
     if (kept && getKeptSettings(keptSettings))

@@ -31,7 +31,9 @@ struct TileBuildSettings
     int channels = 3;        ///< Of the tiles: 1 grey, 3 RGB, 4 RGBA.
     bool linearLight = true; ///< Coarser levels average light, not sRGB code values.
     TileColor background{255, 255, 255, 255}; ///< Where there is no photograph.
-    unsigned int threads = 0;                 ///< 0: as many as the machine has cores.
+    /// Tiles of nothing are uniform ones of the background, for programs that ask for every tile.
+    bool everyTile = false;
+    unsigned int threads = 0; ///< 0: as many as the machine has cores.
     /// For the rows that are in the making; building throws where the atlas is too wide for it.
     std::uint64_t maxBytes = std::uint64_t(1) << 30;
 };

@@ -83,6 +83,21 @@ std::unique_ptr<TileEncoder> makeTileEncoder(const TileFormat& format)
     return std::make_unique<BlockTileEncoder>(BlockFormat::BC7, format.blocks);
 }
 
+UniformEncoder makeUniformEncoder(const TileFormat& format, int channels)
+{
+    const std::shared_ptr<TileEncoder> encoder = makeTileEncoder(format);
+    return [encoder, channels](const TileColor& color, int width, int height)
+    {
+        std::vector<std::uint8_t> row(std::size_t(width) * channels);
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+            row[i] = color[i % channels];
+        }
+        const std::vector<const std::uint8_t*> rows(std::size_t(height), row.data());
+        return encoder->encode({rows.data(), width, height, channels});
+    };
+}
+
 TileData makeTile(const TileRows& tile, TileEncoder& encoder)
 {
     if (isUniform(tile))

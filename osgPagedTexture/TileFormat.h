@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/BlockEncoder.h>
 #include <osgPagedTexture/Export.h>
+#include <osgPagedTexture/TileStore.h>
 
 #include <string>
 
@@ -39,5 +40,9 @@ struct TileFormat
     OSGPAGEDTEXTURE_EXPORT std::string extension() const;
     bool keepsAlpha() const { return coding != TileCoding::Jpeg && coding != TileCoding::Bc1; }
 };
+
+/// Makes files of tiles of one colour, for stores in which each tile is a file; `channels` as the
+/// other tiles have. For one thread at a time.
+OSGPAGEDTEXTURE_EXPORT UniformEncoder makeUniformEncoder(const TileFormat& format, int channels);
 
 } // namespace osgPagedTexture

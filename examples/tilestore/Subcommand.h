@@ -24,7 +24,8 @@ struct Subcommand
     int (*run)(const Arguments& arguments);
 };
 
-extern const Subcommand InfoCommand, VerifyCommand, ExtractCommand, CompactCommand;
+extern const Subcommand BuildCommand, InfoCommand, VerifyCommand, ExtractCommand, CompactCommand;
+extern const Subcommand MaskCommand;
 
 /// "1,234,567".
 std::string grouped(std::uint64_t number);
