@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/SurfaceOf.h>
 
+#include <osgPagedTexture/ArrayPoint.h>
+
 #include <osg/TriangleIndexFunctor>
 
 #include <glm/geometric.hpp>
@@ -17,44 +19,6 @@ namespace
 {
 
 constexpr double LeftOut = 1.0 / 256.0; ///< Of the area.
-
-glm::dvec3 pointOf(const osg::Array& array, unsigned int index)
-{
-    switch (array.getType())
-    {
-    case osg::Array::Vec3ArrayType:
-    {
-        const osg::Vec3& v = static_cast<const osg::Vec3Array&>(array)[index];
-        return {v.x(), v.y(), v.z()};
-    }
-    case osg::Array::Vec3dArrayType:
-    {
-        const osg::Vec3d& v = static_cast<const osg::Vec3dArray&>(array)[index];
-        return {v.x(), v.y(), v.z()};
-    }
-    case osg::Array::Vec2ArrayType:
-    {
-        const osg::Vec2& v = static_cast<const osg::Vec2Array&>(array)[index];
-        return {v.x(), v.y(), 0.0};
-    }
-    case osg::Array::Vec2dArrayType:
-    {
-        const osg::Vec2d& v = static_cast<const osg::Vec2dArray&>(array)[index];
-        return {v.x(), v.y(), 0.0};
-    }
-    default:
-        return glm::dvec3(0.0);
-    }
-}
-
-bool isReadable(const osg::Array* array, bool isPlace)
-{
-    if (!array)
-        return false;
-    const osg::Array::Type type = array->getType();
-    return type == osg::Array::Vec3ArrayType || type == osg::Array::Vec3dArrayType ||
-           (!isPlace && (type == osg::Array::Vec2ArrayType || type == osg::Array::Vec2dArrayType));
-}
 
 /// Takes triangles and keeps how areas are spread over densities, in steps of an eighth of a
 /// power of two.

@@ -24,8 +24,8 @@ struct Subcommand
     int (*run)(const Arguments& arguments);
 };
 
-extern const Subcommand BuildCommand, MergeCommand, UpdateCommand, InfoCommand, VerifyCommand,
-    ExtractCommand, CompactCommand;
+extern const Subcommand MaskCommand, BuildCommand, MergeCommand, UpdateCommand, InfoCommand,
+    VerifyCommand, ExtractCommand, CompactCommand;
 
 /// "1,234,567".
 std::string grouped(std::uint64_t number);

@@ -1,0 +1,7 @@
+#version 330
+out vec4 used;
+
+void main()
+{
+    used = vec4(1.0);
+}
