@@ -28,7 +28,7 @@ namespace
 using namespace precision;
 using namespace osgPagedTexture;
 
-constexpr int Side = 2048, CellSide = 512, Levels = 5;
+constexpr int Side = 2048, CellSide = 512, Levels = 4;
 
 double getProcessSeconds()
 {
@@ -192,7 +192,7 @@ Sweep makeSweep()
     };
     Sweep sweep;
     sweep.name = "tile-stores";
-    sweep.title = "Tile stores of 2048x2048 pixels, five levels against exact ones";
+    sweep.title = "Tile stores of 2048x2048 pixels, four levels against exact ones";
     sweep.errorName = "error [RMS, 1/255]";
     sweep.getError = [](const Outcome& outcome, const Outcome&) { return outcome.number; };
     sweep.renderer = "one CPU thread";
