@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/Export.h>
+
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -13,7 +15,7 @@ namespace osgPagedTexture
 {
 
 /// Threads that share the parts of a piece of work, the caller's among them.
-class CoreTeam
+class OSGPAGEDTEXTURE_EXPORT CoreTeam
 {
 public:
     /// `member` is 0 to getSize() - 1: what belongs to it no other thread uses meanwhile.

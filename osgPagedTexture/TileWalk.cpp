@@ -203,8 +203,8 @@ void TileWalk::run()
         finished = std::move(_jobs);
         _jobs.clear();
         painted = next;
-        _rows[0].setEnd(painted);
         const std::int64_t before = _rows.back().getEnd();
+        _rows[0].setEnd(painted);
         for (int level = 1; level < _settings.levels; ++level)
         {
             makeCoarser(level);
