@@ -77,7 +77,8 @@ std::size_t AtlasPainter::begin(std::int64_t y, std::int64_t endY)
         _begun.push_back(_order[_nextPhoto]);
         _open.push_back(std::make_unique<PhotoPainter>(
             photo, covered,
-            PhotoPainter::Settings{_settings.folder, _settings.channels, _settings.background},
+            PhotoPainter::Settings{_settings.folder, _settings.channels, _settings.background,
+                                   _settings.cut},
             _begun.back()));
     }
     if (!_begun.empty())
@@ -149,6 +150,19 @@ void AtlasPainter::fillGaps(LevelRows& rows) const
         }
         fill(x, end);
     }
+}
+
+std::shared_ptr<JpegCutter> AtlasPainter::findCutter(const PixelRect& inAtlas,
+                                                     PixelRect& inPhoto) const
+{
+    for (const auto& photo : _open)
+    {
+        if (auto cutter = photo->findCutter(inAtlas, inPhoto))
+        {
+            return cutter;
+        }
+    }
+    return nullptr;
 }
 
 std::vector<PhotoFailure> AtlasPainter::getFailures() const

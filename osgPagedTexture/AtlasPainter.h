@@ -13,6 +13,7 @@
 namespace osgPagedTexture
 {
 
+class JpegCutter;
 class PhotoPainter;
 
 /// Paints rows of an atlas from its photographs, which are decoded as the rows go down: each once,
@@ -26,6 +27,7 @@ public:
         PixelRect window;   ///< What of the atlas is painted.
         int channels = 3;
         TileColor background{}; ///< Where there is no photograph, or a broken one.
+        bool cut = false;       ///< Tiles are to be cut out of photographs without loss.
     };
     AtlasPainter(const AtlasLayout& layout, const Settings& settings);
     ~AtlasPainter();
@@ -39,6 +41,9 @@ public:
     const std::vector<std::size_t>& getBegun() const { return _begun; }
     /// Paints a part; different ones in different threads.
     void paint(std::size_t part, LevelRows& rows);
+
+    /// What cuts a part of the current rows out of a photograph; see PhotoPainter.
+    std::shared_ptr<JpegCutter> findCutter(const PixelRect& inAtlas, PixelRect& inPhoto) const;
 
     /// After the last rows, ordered by photograph.
     std::vector<PhotoFailure> getFailures() const;

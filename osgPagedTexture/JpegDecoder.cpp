@@ -100,6 +100,26 @@ bool JpegDecoder::start()
     return jpeg_start_decompress(&_info);
 }
 
+jvirt_barray_ptr* JpegDecoder::startWithCoefficients()
+{
+    if (setjmp(_errors.jump))
+    {
+        return nullptr;
+    }
+    _info.buffered_image = TRUE;
+    jpeg_start_decompress(&_info);
+    while (!jpeg_input_complete(&_info))
+    {
+        if (jpeg_consume_input(&_info) == JPEG_SUSPENDED)
+        {
+            return nullptr; // no source of ours does that
+        }
+    }
+    jvirt_barray_ptr* const coefficients = jpeg_read_coefficients(&_info);
+    jpeg_start_output(&_info, _info.input_scan_number);
+    return coefficients;
+}
+
 bool JpegDecoder::readRow(JSAMPROW row)
 {
     if (setjmp(_errors.jump))

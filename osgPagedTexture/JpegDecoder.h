@@ -52,6 +52,9 @@ public:
 
     bool readHeader();
     bool start();
+    /// As start(), with the coefficients of all blocks read and held; null on an error. They live
+    /// as long as the decoder, and until finish().
+    jvirt_barray_ptr* startWithCoefficients();
     bool readRow(JSAMPROW row);
     /// Goes past rows, faster than reading them.
     bool skipRows(unsigned int count);

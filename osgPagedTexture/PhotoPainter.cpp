@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/AtlasPainter.h>
 #include <osgPagedTexture/ImageFile.h>
+#include <osgPagedTexture/JpegCutter.h>
 
 #include <algorithm>
 #include <utility>
@@ -32,9 +33,11 @@ void PhotoPainter::readRow(std::int64_t photoRow, std::uint8_t* row)
         settings.height = _photo.height;
         settings.channels = _settings.channels;
         settings.background = _settings.background;
+        settings.cut = _settings.cut;
         _rows = openPhotoRows(_settings.folder.empty() ? _photo.path
                                                        : _settings.folder + "/" + _photo.path,
                               settings);
+        _cutter = _rows->getCutter();
     }
     if (photoRow > _nextRow)
     {
@@ -64,6 +67,18 @@ void PhotoPainter::keepUsed(std::int64_t photoRow, std::uint8_t* row) const
         }
     }
     std::copy(flat.begin(), flat.end(), row + _box.x * channels);
+}
+
+std::shared_ptr<JpegCutter> PhotoPainter::findCutter(const PixelRect& inAtlas,
+                                                     PixelRect& inPhoto) const
+{
+    const bool inside = inAtlas.x >= _place.x && inAtlas.y >= _place.y &&
+                        inAtlas.x + inAtlas.width <= _place.x + _place.width &&
+                        inAtlas.y + inAtlas.height <= _place.y + _place.height;
+    inPhoto = {inAtlas.x - _photo.x, inAtlas.y - _photo.y, inAtlas.width, inAtlas.height};
+    // A file that is broken further down shows the background there.
+    const bool usable = _cutter && !_failed && inside && _photo.used.size() < 2;
+    return usable && _cutter->canCut(inPhoto) ? _cutter : nullptr;
 }
 
 void PhotoPainter::repeatEdges(std::int64_t y, const std::uint8_t* firstPixel,

@@ -22,6 +22,7 @@ public:
         std::string folder;
         int channels = 3;
         TileColor background{};
+        bool cut = false; ///< Tiles are to be cut out without loss.
     };
     /// `covered`: its place with padding.
     PhotoPainter(const AtlasPhoto& photo, const PixelRect& covered, const Settings& settings,
@@ -33,6 +34,10 @@ public:
     /// Its part of rows y to endY - 1, which come after those of the last call. The row before is
     /// still in `rows`.
     void paint(std::int64_t y, std::int64_t endY, LevelRows& rows);
+
+    /// What cuts a part of the atlas out of the photograph's file; null where it cannot. `inPhoto`
+    /// becomes the part, from the photograph's corner.
+    std::shared_ptr<JpegCutter> findCutter(const PixelRect& inAtlas, PixelRect& inPhoto) const;
 
     /// What has gone wrong since the last call, one line; else empty.
     std::string takeFailure();
@@ -54,6 +59,7 @@ private:
     std::vector<std::uint8_t> _row; ///< Of the whole photograph, where only a part is shown.
     std::int64_t _nextRow = 0;      ///< Of the photograph.
     std::int64_t _shownRow = -1;    ///< The row that the atlas's last row shows.
+    std::shared_ptr<JpegCutter> _cutter;
     bool _failed = false;
     std::string _failure;
 };

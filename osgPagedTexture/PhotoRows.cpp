@@ -4,6 +4,7 @@
 #include <osgPagedTexture/ExifOrientation.h>
 #include <osgPagedTexture/FileBytes.h>
 #include <osgPagedTexture/ImageFile.h>
+#include <osgPagedTexture/JpegCutter.h>
 #include <osgPagedTexture/JpegDecoder.h>
 #include <osgPagedTexture/JpegFile.h>
 #include <osgPagedTexture/LightTables.h>
@@ -69,7 +70,8 @@ class JpegRows : public PhotoRows
 {
 public:
     JpegRows(const std::string& path, std::uint64_t fileBytes, const PhotoRowsSettings& settings)
-        : _path(path), _settings(settings), _input(path), _decoder(_input)
+        : _path(path), _settings(settings), _file(std::make_shared<File>(path)),
+          _decoder(_file->decoder)
     {
         ImageLimits limits;
         limits.maxPixels = limits.maxBytes = std::uint64_t(1) << 40; // rows come one by one
@@ -87,9 +89,19 @@ public:
                                : settings.channels == 3 ? JCS_RGB
                                                         : JCS_EXT_RGBA;
         _inks.resize(jpeg.num_components == 4 ? std::size_t(settings.width) * 7 : 0);
-        check(_decoder.start());
+        // What is cut has the file's channels.
+        if (settings.cut && (settings.channels == 3 || jpeg.num_components == 1))
+        {
+            // Whoever holds the cutter also holds what the decoder reads from.
+            _cutter = JpegCutter::open(std::shared_ptr<JpegDecoder>(_file, &_file->decoder), path);
+        }
+        if (!_cutter)
+        {
+            check(_decoder.start());
+        }
     }
 
+    std::shared_ptr<JpegCutter> getCutter() const override { return _cutter; }
     bool isTurned() const { return _turned; }
 
     void read(std::uint8_t* row) override
@@ -106,14 +118,23 @@ public:
     }
     void skip(int rows) override
     {
-        if (rows > 0)
+        if (_cutter) // libjpeg skips no rows of blocks that are held
+        {
+            std::vector<std::uint8_t> row(std::size_t(_settings.width) * _settings.channels);
+            for (int y = 0; y < rows; ++y)
+            {
+                read(row.data());
+            }
+        }
+        else if (rows > 0)
         {
             check(_decoder.skipRows(static_cast<unsigned int>(rows)));
         }
     }
     std::string finish() override
     {
-        check(_decoder.finish());
+        // Finishing would free what is cut from; all was read already.
+        check(_cutter || _decoder.finish());
         return _decoder.isWarned() ? damagedJpeg(_path, _decoder.getWarning()).what()
                                    : std::string();
     }
@@ -129,8 +150,15 @@ private:
 
     const std::string _path;
     const PhotoRowsSettings _settings;
-    JpegFileInput _input;
-    JpegDecoder _decoder;
+    struct File
+    {
+        explicit File(const std::string& path) : input(path), decoder(input) {}
+        JpegFileInput input;
+        JpegDecoder decoder;
+    };
+    const std::shared_ptr<File> _file;
+    JpegDecoder& _decoder;
+    std::shared_ptr<JpegCutter> _cutter;
     std::vector<std::uint8_t> _inks; ///< A row of CMYK, and the same in RGB.
     bool _turned = false;
 };

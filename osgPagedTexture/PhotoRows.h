@@ -10,6 +10,8 @@
 namespace osgPagedTexture
 {
 
+class JpegCutter;
+
 /// The rows of a photograph, the top one first as shown, decoded as they are asked for: a wall of
 /// photographs is never in memory as a whole.
 class PhotoRows
@@ -24,6 +26,10 @@ public:
     /// To be called after the last row was read: what the decoder found wrong, one line; else
     /// empty. Throws ImageError.
     virtual std::string finish() { return {}; }
+
+    /// What cuts parts out of the photograph without loss, after its first row was read; null where
+    /// that is not asked for or not possible.
+    virtual std::shared_ptr<JpegCutter> getCutter() const { return nullptr; }
 };
 
 struct PhotoRowsSettings
@@ -32,6 +38,7 @@ struct PhotoRowsSettings
     int height = 0;
     int channels = 3;       ///< To make of it: 1, 3 or 4; 1 is the first of more.
     TileColor background{}; ///< Below translucent pixels where there are fewer than 4 channels.
+    bool cut = false;       ///< Parts of it are to be cut out without loss.
 };
 
 /// Opens any picture that readImageFile() reads: JPEG and PPM piece by piece, most other formats

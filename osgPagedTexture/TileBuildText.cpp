@@ -89,6 +89,15 @@ public:
         }
         refuse(std::string(name) + " must be one of " + known + ", not " + member->dump());
     }
+    void flag(const char* name, bool& value) const
+    {
+        const json* member = find(name);
+        if (member && !member->is_boolean())
+        {
+            refuse(std::string(name) + " must be true or false, not " + member->dump());
+        }
+        value = member ? member->get<bool>() : value;
+    }
     void color(const char* name, TileColor& value) const
     {
         const json* member = find(name);
@@ -143,6 +152,7 @@ std::string describeBuild(const TileBuildSettings& settings)
     text["blockQuality"] = textOf(Qualities, settings.format.blocks);
     text["channels"] = settings.channels;
     text["filter"] = textOf(Filters, settings.linearLight);
+    text["lossless"] = settings.lossless;
     text["background"] = {background[0], background[1], background[2], background[3]};
     return text.dump();
 }
@@ -161,6 +171,7 @@ TileBuildSettings parseBuild(const std::string& text)
     reader.word("blockQuality", Qualities, settings.format.blocks);
     reader.number("channels", 1, 4, settings.channels);
     reader.word("filter", Filters, settings.linearLight);
+    reader.flag("lossless", settings.lossless);
     reader.color("background", settings.background);
     return settings;
 }

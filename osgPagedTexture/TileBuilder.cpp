@@ -100,6 +100,7 @@ WalkSettings TileBuilder::Content::walkSettings(int levels, const PixelRect& win
     walk.channels = settings.channels;
     walk.linearLight = settings.linearLight;
     walk.background = settings.background;
+    walk.cut = settings.lossless;
     return walk;
 }
 

@@ -31,6 +31,9 @@ struct TileBuildSettings
     int channels = 3;        ///< Of the tiles: 1 grey, 3 RGB, 4 RGBA.
     bool linearLight = true; ///< Coarser levels average light, not sRGB code values.
     TileColor background{255, 255, 255, 255}; ///< Where there is no photograph.
+    /// JPEG tiles of level 0 that lie in one JPEG are cut out of it without loss where its blocks
+    /// allow it. Needs three bytes for each pixel of the photographs that cross a row of tiles.
+    bool lossless = false;
     /// Tiles of nothing are uniform ones of the background, for programs that ask for every tile.
     bool everyTile = false;
     unsigned int threads = 0; ///< 0: as many as the machine has cores.

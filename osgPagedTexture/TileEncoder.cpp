@@ -38,19 +38,6 @@ private:
     const EncodeQuality _quality;
 };
 
-bool isUniform(const TileRows& tile)
-{
-    const std::size_t bytes = std::size_t(tile.width) * tile.channels;
-    const std::uint8_t* const first = tile.rows[0];
-    if (std::memcmp(first, first + tile.channels, bytes - tile.channels) != 0)
-    {
-        return false;
-    }
-    return std::all_of(tile.rows + 1, tile.rows + tile.height,
-                       [&](const std::uint8_t* row)
-                       { return std::memcmp(row, first, bytes) == 0; });
-}
-
 TileColor colorOf(const std::uint8_t* pixel, int channels)
 {
     return channels == 1 ? TileColor{pixel[0], pixel[0], pixel[0], 255}
@@ -96,6 +83,19 @@ UniformEncoder makeUniformEncoder(const TileFormat& format, int channels)
         const std::vector<const std::uint8_t*> rows(std::size_t(height), row.data());
         return encoder->encode({rows.data(), width, height, channels});
     };
+}
+
+bool isUniform(const TileRows& tile)
+{
+    const std::size_t bytes = std::size_t(tile.width) * tile.channels;
+    const std::uint8_t* const first = tile.rows[0];
+    if (std::memcmp(first, first + tile.channels, bytes - tile.channels) != 0)
+    {
+        return false;
+    }
+    return std::all_of(tile.rows + 1, tile.rows + tile.height,
+                       [&](const std::uint8_t* row)
+                       { return std::memcmp(row, first, bytes) == 0; });
 }
 
 TileData makeTile(const TileRows& tile, TileEncoder& encoder)

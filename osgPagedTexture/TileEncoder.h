@@ -29,6 +29,9 @@ public:
     virtual std::string encode(const TileRows& tile) = 0;
 };
 
+/// Whether all pixels are equal.
+bool isUniform(const TileRows& tile);
+
 /// A uniform tile where all its pixels are equal, else an encoded one.
 TileData makeTile(const TileRows& tile, TileEncoder& encoder);
 

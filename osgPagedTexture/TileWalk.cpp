@@ -2,6 +2,7 @@
 #include <osgPagedTexture/TileWalk.h>
 
 #include <osgPagedTexture/HalveRow.h>
+#include <osgPagedTexture/JpegCutter.h>
 #include <osgPagedTexture/WalkOutputRows.h>
 
 #include <algorithm>
@@ -45,6 +46,8 @@ struct TileWalk::Job
     TileKey key;
     bool occupied = false;
     TileData tile;
+    std::shared_ptr<JpegCutter> cutter; ///< Or null.
+    PixelRect part{};                   ///< That it cuts.
 };
 
 class TileWalk::Output : public WalkOutputRows
@@ -67,7 +70,8 @@ std::uint64_t TileWalk::getRowBytes(const WalkSettings& settings)
 TileWalk::TileWalk(const AtlasLayout& layout, const WalkSettings& settings,
                    std::vector<WalkOutput> outputs, CoreTeam& team)
     : _layout(layout), _settings(settings), _team(team),
-      _painter(layout, {settings.folder, settings.window, settings.channels, settings.background})
+      _painter(layout, {settings.folder, settings.window, settings.channels, settings.background,
+                        settings.cut})
 {
     const PixelRect& window = settings.window;
     for (int level = 0; level < settings.levels; ++level)
@@ -129,9 +133,19 @@ void TileWalk::collectJobs()
     for (const auto& output : _outputs)
     {
         output->forEachFinished(_rows,
-                                [&](const TileKey& key, bool occupied) {
-                                    _jobs.push_back({output.get(), key, occupied, {}});
+                                [&](const TileKey& key, bool occupied)
+                                {
+                                    _jobs.push_back({output.get(), key, occupied, {}, {}, {}});
+                                    findCutter(_jobs.back());
                                 });
+    }
+}
+
+void TileWalk::findCutter(Job& job) const
+{
+    if (_settings.cut && job.occupied && job.output->isCut(job.key))
+    {
+        job.cutter = _painter.findCutter(job.output->getPixels(job.key), job.part);
     }
 }
 
@@ -139,7 +153,8 @@ void TileWalk::encode(Job& job, unsigned int member)
 {
     if (job.occupied)
     {
-        job.tile = job.output->encode(job.key, _rows, member);
+        job.tile = job.output->encode(job.key, _rows, member, job.cutter.get(), job.part);
+        job.cutter.reset();
     }
 }
 
@@ -188,8 +203,8 @@ void TileWalk::run()
         finished = std::move(_jobs);
         _jobs.clear();
         painted = next;
-        _rows[0].setEnd(painted);
         const std::int64_t before = _rows.back().getEnd();
+        _rows[0].setEnd(painted);
         for (int level = 1; level < _settings.levels; ++level)
         {
             makeCoarser(level);

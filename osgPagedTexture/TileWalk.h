@@ -42,6 +42,7 @@ struct WalkSettings
     int channels = 3;
     bool linearLight = true;
     TileColor background{255, 255, 255, 255};
+    bool cut = false; ///< JPEG tiles of level 0 without loss where a photograph allows it.
 };
 
 /// Walks down an atlas: decodes photographs, makes the coarser levels from the finer ones while
@@ -75,6 +76,7 @@ private:
     void makeCoarser(int level);
     void markBegun();
     void collectJobs();
+    void findCutter(Job& job) const;
     void encode(Job& job, unsigned int member);
     void putTiles(const std::vector<Job>& jobs);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/WalkOutputRows.h>
 
+#include <osgPagedTexture/JpegCutter.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -107,14 +109,19 @@ void WalkOutputRows::gather(const PixelRect& area, int level, const LevelRows& r
 }
 
 TileData WalkOutputRows::encode(const TileKey& key, const std::vector<LevelRows>& rows,
-                                unsigned int member)
+                                unsigned int member, const JpegCutter* cutter,
+                                const PixelRect& part)
 {
     const LevelRows& level = rows[std::size_t(_output.firstLevel + key.level)];
     const PixelRect area = _output.grid.getPixels(key);
     Member& mine = _members[member];
     gather(area, key.level, level, mine);
-    return makeTile({mine.rows.data(), int(area.width), int(area.height), level.getChannels()},
-                    *mine.encoder);
+    const TileRows tile{mine.rows.data(), int(area.width), int(area.height), level.getChannels()};
+    if (cutter && !isUniform(tile))
+    {
+        return TileData::encoded(cutter->cut(part));
+    }
+    return makeTile(tile, *mine.encoder);
 }
 
 } // namespace osgPagedTexture

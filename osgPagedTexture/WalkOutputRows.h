@@ -10,6 +10,8 @@
 namespace osgPagedTexture
 {
 
+class JpegCutter;
+
 /// How far a walk is with the tiles of one grid, and how they come of its rows.
 class WalkOutputRows
 {
@@ -24,8 +26,18 @@ public:
     /// Visits the wanted tiles whose rows are there since the last call.
     void forEachFinished(const std::vector<LevelRows>& rows, const Visit& visit);
 
-    /// `member` counts the threads that do so at once.
-    TileData encode(const TileKey& key, const std::vector<LevelRows>& rows, unsigned int member);
+    /// Whether such a tile may be cut out of a photograph.
+    bool isCut(const TileKey& key) const
+    {
+        return _output.firstLevel == 0 && key.level == 0 &&
+               _output.format.coding == TileCoding::Jpeg;
+    }
+    PixelRect getPixels(const TileKey& key) const { return _output.grid.getPixels(key); }
+
+    /// `member` counts the threads that do so at once. With a cutter the tile is that part of its
+    /// photograph unless it is uniform.
+    TileData encode(const TileKey& key, const std::vector<LevelRows>& rows, unsigned int member,
+                    const JpegCutter* cutter, const PixelRect& part);
     void put(const TileKey& key, const TileData& tile) const { _output.put(key, tile); }
 
 private:

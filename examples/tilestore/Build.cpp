@@ -4,6 +4,7 @@
 #include "Progress.h"
 #include "Subcommand.h"
 
+#include <osgPagedTexture/AtlasPicture.h>
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PhotoFolder.h>
 #include <osgPagedTexture/TileFolders.h>
@@ -51,6 +52,10 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
   --filter F             [filter] linear: coarser levels average light (default); plain: code
                          values, as most programs do
   --background R,G,B     [background] where there is no photograph; default 255,255,255
+  --lossless             [lossless] tiles of level 0 that lie in one JPEG are cut out of it without
+                         loss, of its own quality; where tile side - 2 * border is a multiple of 16
+  --atlas FILE           [atlas] also writes the large picture, .ppm, .tif, .png: for other programs
+  --atlas-side N         [atlasSide] of the largest part of it, FILE_<x>_<y>; default 65500
   --padding N            [padding] pixels around photographs that repeat their edge; default 12
   --max-width N          [maxWidth] of the picture that they are laid out in
   --memory SIZE          [memory] for rows of it, such as 512MiB; default 1GiB. The layout gets
@@ -73,7 +78,8 @@ struct Outcome
     std::vector<std::string> failures;
     TileBuildReport report;
     TileStoreSettings settings;
-    double layoutSeconds = 0.0, buildSeconds = 0.0;
+    std::vector<std::string> atlas; ///< Its files.
+    double layoutSeconds = 0.0, atlasSeconds = 0.0, buildSeconds = 0.0;
 };
 
 class Stopwatch
@@ -202,6 +208,22 @@ void buildStore(const BuildConfig& build, Outcome& outcome)
     store->commit();
 }
 
+void writePictures(const BuildConfig& build, Outcome& outcome)
+{
+    AtlasPictureSettings settings;
+    settings.path = build.atlas;
+    settings.partSide = build.atlasSide;
+    settings.channels = build.settings.channels;
+    settings.background = build.settings.background;
+    settings.threads = build.settings.threads;
+    Progress progress("writing the atlas", "rows");
+    outcome.atlas =
+        writeAtlas(outcome.layout, folderOf(build.layout), settings,
+                   {0, 0, outcome.layout.width, outcome.layout.height},
+                   [&](std::uint64_t done, std::uint64_t total) { progress.show(done, total); })
+            .files; // what is broken the tiles tell as well
+}
+
 Json toJson(const BuildConfig& build, const Outcome& outcome)
 {
     double pixels = 0.0;
@@ -220,6 +242,11 @@ Json toJson(const BuildConfig& build, const Outcome& outcome)
     json["absentTiles"] = outcome.report.absentTiles;
     json["tileBytes"] = outcome.report.tileBytes;
     json["layoutSeconds"] = outcome.layoutSeconds;
+    if (!outcome.atlas.empty())
+    {
+        json["atlas"] = outcome.atlas;
+        json["atlasSeconds"] = outcome.atlasSeconds;
+    }
     json["buildSeconds"] = outcome.buildSeconds;
     json["failures"] = outcome.failures;
     return json;
@@ -264,6 +291,12 @@ int run(const Arguments& arguments)
         build.settings.channels = 4;
     }
     outcome.layoutSeconds = layoutTime.seconds();
+    if (!build.atlas.empty())
+    {
+        const Stopwatch atlasTime;
+        writePictures(build, outcome);
+        outcome.atlasSeconds = atlasTime.seconds();
+    }
     const Stopwatch buildTime;
     buildStore(build, outcome);
     outcome.buildSeconds = buildTime.seconds();

@@ -44,6 +44,9 @@ constexpr Setting Settings[] = {
     {"--channels", "channels", Setting::Kind::Number},
     {"--filter", "filter", Setting::Kind::Text},
     {"--background", "background", Setting::Kind::Color},
+    {"--lossless", "lossless", Setting::Kind::Flag},
+    {"--atlas", "atlas", Setting::Kind::Path},
+    {"--atlas-side", "atlasSide", Setting::Kind::Number},
     {"--padding", "padding", Setting::Kind::Number},
     {"--max-width", "maxWidth", Setting::Kind::Number},
     {"--memory", "memory", Setting::Kind::Text},
@@ -221,6 +224,8 @@ BuildConfig readBuildConfig(const Arguments& arguments)
     if (const std::string memory = textOf(config, "memory"); !memory.empty())
         build.settings.maxBytes = parseBytes(memory, "memory");
     build.channelsGiven = config.contains("channels");
+    build.atlas = textOf(config, "atlas");
+    build.atlasSide = numberOf(config, "atlasSide", build.atlasSide, std::int64_t(1) << 30);
     build.padding = int(numberOf(config, "padding", -1, 65536));
     build.maxWidth = numberOf(config, "maxWidth", 0, osgPagedTexture::TileGrid::MaxSide);
     build.updatable = !flagOf(config, "notUpdatable") && build.output == Output::Pack;

@@ -173,6 +173,32 @@ TEST(OsgTileStoreBuildTest, libVtAndDeepZoomFoldersShowTheSamePicture)
     EXPECT_EQ(pixelsOf(folder.file("web.dzi")), packed);
 }
 
+TEST(OsgTileStoreBuildTest, theAtlasIsWrittenInPartsOnlyWhereItIsAskedFor)
+{
+    const support::TemporaryFolder folder;
+    addPhotos(folder);
+    const auto result = run({folder.file("photos"), "--format", "png", "--atlas",
+                             folder.file("atlas.ppm"), "--atlas-side", "400", "--json"});
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const json report = json::parse(result.output);
+    const int columns = (report["width"].get<int>() + 399) / 400;
+    const int rows = (report["height"].get<int>() + 399) / 400;
+    ASSERT_GT(columns * rows, 1);
+    EXPECT_EQ(report["atlas"].size(), std::size_t(columns * rows));
+    const auto reader = openTileStore(folder.file("photos.tiles"));
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x)
+        {
+            const std::string name = std::to_string(x) + "_" + std::to_string(y) + ".ppm";
+            extractRegion(*reader, 0, {x * 400, y * 400, 400, 400}, {}, folder.file(name));
+            EXPECT_EQ(contentOf(folder.file("atlas_" + name)), contentOf(folder.file(name)));
+        }
+    ASSERT_EQ(run({folder.file("photos.tiles.layout.json"), "--atlas", folder.file("whole.tif")})
+                  .exitCode,
+              0);
+    EXPECT_TRUE(fs::exists(folder.file("whole.tif")));
+}
+
 TEST(OsgTileStoreBuildTest, alphaIsFoundWhereTheFormatKeepsIt)
 {
     const support::TemporaryFolder folder;

@@ -3,6 +3,7 @@
 #include "BuildSamples.h"
 #include "TilePackSamples.h"
 
+#include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/TileExtract.h>
 
 #include <gtest/gtest.h>
@@ -222,6 +223,73 @@ TEST(TileBuilderTest, rebuildingAnAreaMakesTheTilesAndPixelsOfTheWholeBuild)
     LevelPixels pixels;
     builder.rebuild({grid.getWidth(), 0, 5, 5}, {}, pixels); // outside: nothing to put
     EXPECT_TRUE(pixels.bytes.empty());
+}
+
+TEST(TileBuilderTest, losslessTilesHaveThePhotographsOwnBlocks)
+{
+    PhotoWall wall;
+    JpegOptions full, halved, progressive;
+    halved.fullChroma = false;
+    progressive.progressive = true;
+    int number = 0;
+    for (const JpegOptions& options : {full, halved, progressive})
+    {
+        const std::string bytes = encodeJpeg(samplePicture(400, 300, 3, 5), options);
+        wall.addFile("photo" + std::to_string(++number) + ".jpg", bytes,
+                     readJpegBytes(bytes, "photo").pixels);
+    }
+    const std::string grey = encodeJpeg(samplePicture(300, 200, 1, 5), full);
+    wall.addFile("grey.jpg", grey, readJpegBytes(grey, "photo").pixels);
+    wall.add("other.png", 200, 300);
+    TileBuildSettings settings = smallTiles();
+    settings.tileSide = 64;
+    settings.border = 8;
+    settings.format.coding = TileCoding::Jpeg;
+    settings.format.quality = 10; // of those that cannot be cut
+    settings.lossless = true;
+    wall.place(AtlasSettings::forTiles(settings.tileSide, settings.border));
+    EXPECT_TRUE(buildInto(wall, settings, "store").failures.empty());
+    const TilePackReader reader(wall.file("store"));
+    const TileGrid& grid = reader.getSettings().grid;
+    int inside = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+    {
+        const AtlasPhoto& photo = wall.layout.photos[i];
+        const Pixels& pixels = wall.photos[i];
+        for (const TileKey& key : tilesOf(grid))
+        {
+            const PixelRect area = grid.getPixels(key);
+            if (key.level > 0 || area.x < photo.x || area.y < photo.y ||
+                area.x + area.width > photo.x + photo.width ||
+                area.y + area.height > photo.y + photo.height)
+            {
+                continue;
+            }
+            ++inside;
+            const Pixels tile = decodeTile(reader.read(key).bytes, "tile");
+            ASSERT_EQ(tile.channels, pixels.channels);
+            // Halved colours are smoothed across the edge of what one decodes.
+            const int ring = i == 1 ? 2 : 0;
+            for (int y = ring; y < tile.height - ring; ++y)
+                for (int x = ring; x < tile.width - ring; ++x)
+                {
+                    const int column = int(area.x - photo.x) + x;
+                    const int row = pixels.height - 1 - (int(area.y - photo.y) + y);
+                    for (int c = 0; c < tile.channels; ++c)
+                        ASSERT_EQ(tile.row(tile.height - 1 - y)[x * tile.channels + c],
+                                  pixels.row(row)[column * pixels.channels + c])
+                            << i << ": " << x << ", " << y;
+                }
+        }
+    }
+    EXPECT_GT(inside, 80);
+    // Coarser levels come of the decoded pixels, and an area again gives the same bytes.
+    LevelPixels coarse;
+    TileBuilder(wall.layout, wall.folder(), settings)
+        .rebuild(
+            {150, 120, 200, 90},
+            [&](const TileKey& key, const TileData& tile) { EXPECT_EQ(tile, reader.read(key)); },
+            coarse);
 }
 
 TEST(TileBuilderTest, deepZoomTilesEndWithThePicture)
