@@ -3,6 +3,8 @@
 
 #include <osgPagedTexture/LightTables.h>
 
+#include <cstring>
+
 namespace osgPagedTexture
 {
 
@@ -26,13 +28,14 @@ void halveLight(const std::uint8_t* upper, const std::uint8_t* lower, std::size_
     }
 }
 
-/// Rows first, which compilers do many at a time, then pairs.
+/// The mean that begins at every sample, which compilers do many at a time, then those of the pairs.
 template <int Channels>
 void halvePlain(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t texels,
                 std::uint8_t* half)
 {
     constexpr std::size_t atATime = 128;
     std::uint16_t sums[2 * Channels * atATime];
+    std::uint8_t means[2 * Channels * atATime];
     while (texels > 0)
     {
         const std::size_t count = texels < atATime ? texels : atATime;
@@ -41,13 +44,13 @@ void halvePlain(const std::uint8_t* upper, const std::uint8_t* lower, std::size_
         {
             sums[i] = static_cast<std::uint16_t>(upper[i] + lower[i]);
         }
-        const std::uint16_t* sum = sums;
-        for (std::size_t x = 0; x < count; ++x, sum += 2 * Channels)
+        for (std::size_t i = 0; i < samples - Channels; ++i)
         {
-            for (int c = 0; c < Channels; ++c)
-            {
-                *half++ = static_cast<std::uint8_t>((sum[c] + sum[c + Channels] + 2) >> 2);
-            }
+            means[i] = static_cast<std::uint8_t>((sums[i] + sums[i + Channels] + 2) >> 2);
+        }
+        for (std::size_t x = 0; x < count; ++x, half += Channels)
+        {
+            std::memcpy(half, means + 2 * Channels * x, Channels);
         }
         upper += samples;
         lower += samples;

@@ -17,10 +17,10 @@ using namespace osgPagedTexture;
 namespace
 {
 
-constexpr int CellSide = 2048;
+constexpr int LeastSide = 1024;
 constexpr std::size_t MostPhotos = 18;
 
-/// Colour photographs of at least half a cell's side.
+/// Colour photographs that are large enough.
 std::vector<Pixels> installedPhotos()
 {
     std::vector<Pixels> photos;
@@ -39,7 +39,7 @@ std::vector<Pixels> installedPhotos()
                 continue;
             }
             Pixels pixels = readImageFile(std::string(folder) + "/" + path).pixels;
-            if (pixels.channels == 3 && std::min(pixels.width, pixels.height) >= CellSide / 2)
+            if (pixels.channels == 3 && std::min(pixels.width, pixels.height) >= LeastSide)
             {
                 photos.push_back(std::move(pixels));
                 seen.push_back(name);
@@ -51,7 +51,7 @@ std::vector<Pixels> installedPhotos()
 
 } // namespace
 
-int writeMosaic(const std::string& path, int side)
+int writeMosaic(const std::string& path, int side, int cellSide)
 {
     const std::vector<Pixels> photos = installedPhotos();
     if (photos.empty())
@@ -70,12 +70,12 @@ int writeMosaic(const std::string& path, int side)
     {
         for (int x = 0; x < side; ++x)
         {
-            const int column = x / CellSide, line = y / CellSide;
-            const int cell = line * ((side + CellSide - 1) / CellSide) + column;
+            const int column = x / cellSide, line = y / cellSide;
+            const int cell = line * ((side + cellSide - 1) / cellSide) + column;
             const Pixels& photo = photos[std::size_t(cell) % photos.size()];
             const int shift = cell / int(photos.size()) * 37;
-            const int px = (x - column * CellSide + shift) % photo.width;
-            const int py = (y - line * CellSide + shift) % photo.height;
+            const int px = (x - column * cellSide + shift) % photo.width;
+            const int py = (y - line * cellSide + shift) % photo.height;
             std::copy_n(photo.row(photo.height - 1 - py) + 3 * px, 3, &row[std::size_t(x) * 3]);
         }
         if (std::fwrite(row.data(), 1, row.size(), file.get()) != row.size())
