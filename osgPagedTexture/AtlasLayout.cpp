@@ -288,13 +288,13 @@ void checkAtlas(const AtlasLayout& layout)
         throw TileStoreError(TileStoreError::Kind::Damaged,
                              "osgPagedTexture::AtlasLayout: " + what);
     };
+    std::for_each(layout.photos.begin(), layout.photos.end(), checkPhoto);
     AtlasLayout pixels; // places, without padding and alignment
     std::vector<AtlasCell> places = cellsOf(pixels, layout.photos);
     AtlasCellIndex index(places);
     for (std::size_t i = 0; i < places.size(); ++i)
     {
         const AtlasPhoto& photo = layout.photos[i];
-        checkPhoto(photo);
         const AtlasCell& place = places[i];
         if (place.x < 0 || place.y < 0 || place.right() > layout.width ||
             place.bottom() > layout.height)

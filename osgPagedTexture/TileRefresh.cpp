@@ -113,12 +113,20 @@ void TileRefresh::openWriter()
     }
 }
 
+/// Whether a tile is not made yet: it may show pixels of several parts.
+bool TileRefresh::isNext(const TileKey& key)
+{
+    // Beyond this many some are made twice, which changes nothing.
+    constexpr std::size_t maxRemembered = 1000000;
+    if (_done.size() >= maxRemembered)
+    {
+        _done.clear();
+    }
+    return _done.insert({key.level, key.y, key.x}).second;
+}
+
 void TileRefresh::put(const TileKey& key, const TileData& tile, TileUpdateReport& report)
 {
-    if (!_done.insert({key.level, key.y, key.x}).second)
-    {
-        return; // it shows pixels of several parts
-    }
     ++report.touchedTiles;
     if (!(_before.read(key) == tile))
     {
@@ -132,7 +140,15 @@ void TileRefresh::refreshFine(const PixelRect& part, TileUpdateReport& report)
 {
     LevelPixels coarse;
     const TileBuildReport built = _builder.rebuild(
-        part, [&](const TileKey& key, const TileData& tile) { put(key, tile, report); }, coarse);
+        part,
+        [&](const TileKey& key, const TileData& tile)
+        {
+            if (isNext(key))
+            {
+                put(key, tile, report);
+            }
+        },
+        coarse);
     for (const PhotoFailure& failure : built.failures)
     {
         if (std::find(report.failures.begin(), report.failures.end(), failure.cause) ==
@@ -148,25 +164,18 @@ void TileRefresh::refreshFine(const PixelRect& part, TileUpdateReport& report)
     }
 }
 
-void TileRefresh::collectCoarse()
+/// The kept levels' tiles that show any of these pixels of level 0.
+void TileRefresh::refreshCoarse(const PixelRect& part, int level, TileUpdateReport& report)
 {
-    const TileGrid& grid = _builder.getGrid();
-    for (int level = TileBuilder::KeptLevel; level < grid.getLevels(); ++level)
+    const TileRange range = _builder.getGrid().getTouched(part, level);
+    for (std::int64_t y = range.y; y <= range.lastY; ++y)
     {
-        std::vector<PixelRect> parts = _layout.pending;
-        if (level >= _before.getSettings().grid.getLevels())
+        for (std::int64_t x = range.x; x <= range.lastX; ++x)
         {
-            parts.assign(1, {0, 0, grid.getWidth(), grid.getHeight()});
-        }
-        for (const PixelRect& part : parts)
-        {
-            const TileRange range = grid.getTouched(part, level);
-            for (std::int64_t y = range.y; y <= range.lastY; ++y)
+            const TileKey key{level, x, y};
+            if (isNext(key))
             {
-                for (std::int64_t x = range.x; x <= range.lastX; ++x)
-                {
-                    _coarse.insert({level, y, x});
-                }
+                put(key, _kept->makeTile(key), report);
             }
         }
     }
@@ -175,18 +184,24 @@ void TileRefresh::collectCoarse()
 void TileRefresh::refreshCoarse(TileUpdateReport& report)
 {
     // A grown atlas may have levels that were not there.
-    const int levels = _before.getSettings().grid.getLevels() - TileBuilder::KeptLevel;
-    if (levels < _kept->getGrid().getLevels())
+    const TileGrid& grid = _builder.getGrid();
+    const int former = _before.getSettings().grid.getLevels();
+    if (former < grid.getLevels())
     {
-        const int last = std::max(levels - 1, 0);
+        const int last = std::max(former - 1 - TileBuilder::KeptLevel, 0);
         _kept->makeCoarser(
             last, {0, 0, _kept->getGrid().getWidth(last), _kept->getGrid().getHeight(last)});
     }
-    collectCoarse();
-    for (const auto& [level, y, x] : _coarse)
+    for (int level = TileBuilder::KeptLevel; level < grid.getLevels(); ++level)
     {
-        const TileKey key{level, x, y};
-        put(key, _kept->makeTile(key), report);
+        for (const PixelRect& part : _layout.pending)
+        {
+            refreshCoarse(part, level, report);
+        }
+        if (level >= former)
+        {
+            refreshCoarse({0, 0, grid.getWidth(), grid.getHeight()}, level, report);
+        }
     }
     _kept->commit(_origin.text());
 }

@@ -31,7 +31,8 @@ private:
     void openWriter();
     void refreshFine(const PixelRect& part, TileUpdateReport& report);
     void refreshCoarse(TileUpdateReport& report);
-    void collectCoarse();
+    void refreshCoarse(const PixelRect& part, int level, TileUpdateReport& report);
+    bool isNext(const TileKey& key);
     void put(const TileKey& key, const TileData& tile, TileUpdateReport& report);
 
     const std::string _path;
@@ -43,7 +44,7 @@ private:
     TilePackReader _before;
     std::unique_ptr<KeptLevels> _kept;
     std::unique_ptr<TilePackWriter> _writer;
-    std::set<Key> _done, _coarse;
+    std::set<Key> _done;
 };
 
 } // namespace osgPagedTexture

@@ -54,6 +54,10 @@ public:
         writeAtlasLayout(_layoutPath, _layout);
         _origin.layoutHash = _layout.getContentHash();
         makeTiles();
+        if (_settings.afterwards)
+        {
+            _settings.afterwards(_layout, _folder);
+        }
         _layout.pending.clear();
         _layout.pendingSince.clear();
         writeAtlasLayout(_layoutPath, _layout);

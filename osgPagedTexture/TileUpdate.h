@@ -6,6 +6,7 @@
 #include <osgPagedTexture/TilePack.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct TileUpdateSettings
     /// Where more of the atlas than this share has changed, the whole store is built anew.
     double rebuildShare = 0.6;
     TilePackWriter::Options pack; ///< Also how long another update is waited for.
+
+    /// Called when tiles were changed, with the layout and the folder of its file;
+    /// AtlasLayout::pending says where. Killed meanwhile, it is called again by the next update.
+    std::function<void(const AtlasLayout& layout, const std::string& folder)> afterwards;
 };
 
 struct TileUpdateReport

@@ -141,20 +141,24 @@ AtlasLayout makeLayout(const BuildConfig& build, std::vector<std::string>& failu
 }
 
 /// Whether a photograph has alpha that shows. JPEG has none.
-bool isTranslucent(const AtlasLayout& layout, const std::string& folder)
+
+int channelsOf(const BuildConfig& build, const AtlasLayout& layout)
 {
-    const auto translucent = [&](const AtlasPhoto& photo)
+    const auto isTranslucent = [&](const AtlasPhoto& photo)
     {
         try
         {
-            return readImageInfo(folder + "/" + photo.path).translucent;
+            return readImageInfo(folderOf(build.layout) + "/" + photo.path).translucent;
         }
         catch (const ImageError&) // the builder tells
         {
             return false;
         }
     };
-    return std::any_of(layout.photos.begin(), layout.photos.end(), translucent);
+    const bool mayHaveAlpha = !build.channelsGiven && build.settings.format.keepsAlpha();
+    return mayHaveAlpha && std::any_of(layout.photos.begin(), layout.photos.end(), isTranslucent)
+               ? 4
+               : build.settings.channels;
 }
 
 TileStoreOrigin originOf(const BuildConfig& build, const AtlasLayout& layout)
@@ -285,11 +289,7 @@ int run(const Arguments& arguments)
         build.makeLayout ? makeLayout(build, outcome.failures) : readAtlasLayout(build.layout);
     if (build.makeLayout)
         writeAtlasLayout(build.layout, outcome.layout);
-    if (!build.channelsGiven && build.settings.format.keepsAlpha() &&
-        isTranslucent(outcome.layout, folderOf(build.layout)))
-    {
-        build.settings.channels = 4;
-    }
+    build.settings.channels = channelsOf(build, outcome.layout);
     outcome.layoutSeconds = layoutTime.seconds();
     if (!build.atlas.empty())
     {

@@ -29,7 +29,7 @@ struct BuildConfig
     osgPagedTexture::TileBuildSettings settings;
     int padding = -1;          ///< Less than 0: what the tiles need.
     std::int64_t maxWidth = 0; ///< Of a layout that is made; 0: about square.
-    std::string atlas; ///< A picture that is written as well; empty: none.
+    std::string atlas;         ///< A picture that is written as well; empty: none.
     std::int64_t atlasSide = 65500;
     bool updatable = true;
     bool durable = true;

@@ -52,7 +52,7 @@ AtlasLayout sharedLayout(const BuildConfig& build, std::vector<std::string>& fai
 
 } // namespace
 
-int runShard(const BuildConfig& build, const Arguments& arguments)
+int runShard(BuildConfig build, const Arguments& arguments)
 {
     if (build.output != Output::Pack || !build.updatable)
         throw UsageError("--shard builds packed stores with their .mips; leave out --output and "
@@ -60,6 +60,7 @@ int runShard(const BuildConfig& build, const Arguments& arguments)
     const TileShard shard = shardOf(arguments.get("--shard", ""));
     std::vector<std::string> failures;
     const AtlasLayout layout = sharedLayout(build, failures);
+    build.settings.channels = channelsOf(build, layout);
     TilePackWriter::Options options;
     options.durable = build.durable;
     const TileBuildReport report =

@@ -17,7 +17,11 @@ osgPagedTexture::AtlasLayout makeLayout(const BuildConfig& build,
 osgPagedTexture::TileStoreOrigin originOf(const BuildConfig& build,
                                           const osgPagedTexture::AtlasLayout& layout);
 
+/// How many the tiles get: 4 where nothing is asked for, and a photograph and the format have
+/// alpha.
+int channelsOf(const BuildConfig& build, const osgPagedTexture::AtlasLayout& layout);
+
 /// `build --shard I/N`. Returns the exit status.
-int runShard(const BuildConfig& build, const Arguments& arguments);
+int runShard(BuildConfig build, const Arguments& arguments);
 
 } // namespace tilestore

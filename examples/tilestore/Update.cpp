@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "Subcommand.h"
 
+#include <osgPagedTexture/AtlasPicture.h>
 #include <osgPagedTexture/AtlasWatch.h>
 #include <osgPagedTexture/TileUpdate.h>
 
@@ -8,6 +9,7 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <thread>
 
 namespace tilestore
@@ -35,6 +37,9 @@ Killed at any moment the store is the old or the new one, and the next update do
   --keep-missing     photographs that are not there keep their tiles
   --look-inside      compares the content of all photographs, not only of those with another size
                      or time
+  --atlas FILE       also the large picture that build --atlas FILE has written: its parts that
+                     show a changed pixel are written again
+  --atlas-side N     of its largest part, as for build; default 65500
   --memory SIZE      for the rows in the making, such as 512MiB; default 1GiB
   --threads N        default: as many as the machine has cores
   --wait S           seconds to wait for another program that updates the store; default 0
@@ -50,6 +55,37 @@ volatile std::sig_atomic_t g_stop = 0;
 void stop(int)
 {
     g_stop = 1;
+}
+
+/// The parts of the large picture that show anything of what is pending.
+void writeParts(const AtlasLayout& layout, const std::string& folder,
+                const AtlasPictureSettings& settings)
+{
+    std::set<std::pair<std::int64_t, std::int64_t>> parts;
+    for (const PixelRect& rect : layout.pending)
+    {
+        const std::int64_t right = std::min(rect.x + rect.width, layout.width) - 1;
+        const std::int64_t bottom = std::min(rect.y + rect.height, layout.height) - 1;
+        for (std::int64_t y = rect.y / settings.partSide; y <= bottom / settings.partSide; ++y)
+            for (std::int64_t x = rect.x / settings.partSide; x <= right / settings.partSide; ++x)
+                parts.insert({y, x});
+    }
+    for (const auto& [y, x] : parts)
+        writeAtlas(layout, folder, settings, {x * settings.partSide, y * settings.partSide, 1, 1});
+}
+
+AtlasPictureSettings pictureOf(const std::string& store, const Arguments& arguments)
+{
+    const TileBuildSettings built =
+        TileStoreOrigin::parse(TilePackReader(store).getSettings().description).settings;
+    AtlasPictureSettings settings;
+    settings.path = arguments.get("--atlas", "");
+    settings.partSide =
+        arguments.number("--atlas-side", settings.partSide, 1, std::int64_t(1) << 30);
+    settings.channels = built.channels;
+    settings.background = built.background;
+    settings.threads = unsigned(arguments.number("--threads", 0, 0, 1024));
+    return settings;
 }
 
 TileUpdateSettings settingsOf(const Arguments& arguments)
@@ -106,7 +142,12 @@ void report(const std::string& path, const TileUpdateReport& done, double second
 bool updateOnce(const std::string& path, const Arguments& arguments)
 {
     const auto start = Clock::now();
-    const TileUpdateReport done = updateTileStore(path, settingsOf(arguments));
+    TileUpdateSettings settings = settingsOf(arguments);
+    if (arguments.has("--atlas"))
+        settings.afterwards = [picture = pictureOf(path, arguments)](const AtlasLayout& layout,
+                                                                     const std::string& folder)
+        { writeParts(layout, folder, picture); };
+    const TileUpdateReport done = updateTileStore(path, settings);
     report(path, done, std::chrono::duration<double>(Clock::now() - start).count(), arguments);
     return done.failures.empty();
 }
@@ -192,6 +233,8 @@ const Subcommand UpdateCommand{"update",
                                 {"--interval"},
                                 {"--keep-missing", false},
                                 {"--look-inside", false},
+                                {"--atlas"},
+                                {"--atlas-side"},
                                 {"--memory"},
                                 {"--threads"},
                                 {"--wait"},

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <thread>
 
 #include <sys/wait.h>
@@ -95,6 +96,45 @@ TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
                   .exitCode,
               0);
     EXPECT_EQ(bytesOf(sample.store()), updated);
+}
+
+TEST(OsgTileStoreUpdate, partsOfTheLargePictureAreWrittenWhereTheyHaveChanged)
+{
+    const Photographs sample;
+    const std::string folder = fs::path(sample.store()).parent_path().string();
+    const std::string picture = folder + "/atlas.ppm";
+    ASSERT_EQ(sample.build(sample.store(), {"--atlas", picture, "--atlas-side", "150"}).exitCode,
+              0);
+    const auto parts = [&]
+    {
+        std::map<std::string, std::string> bytes;
+        for (const auto& each : fs::directory_iterator(folder))
+        {
+            if (each.path().extension() == ".ppm")
+            {
+                bytes[each.path().string()] = bytesOf(each.path().string());
+            }
+        }
+        return bytes;
+    };
+    const auto before = parts();
+    ASSERT_GT(before.size(), 4u);
+    sample.write("5", 99);
+    const auto result = run({"update", sample.store(), "--atlas", picture, "--atlas-side", "150"});
+    ASSERT_EQ(result.exitCode, 0) << result.errors;
+    const auto updated = parts();
+    std::size_t changed = 0;
+    for (const auto& [file, bytes] : before)
+    {
+        changed += updated.at(file) != bytes;
+    }
+    EXPECT_GE(changed, 1u);
+    EXPECT_LE(changed, 4u);
+    ASSERT_EQ(run({"build", sample.store() + ".layout.json", "--store", folder + "/again.tiles",
+                   "--atlas", picture, "--atlas-side", "150"})
+                  .exitCode,
+              0);
+    EXPECT_EQ(parts(), updated);
 }
 
 TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)

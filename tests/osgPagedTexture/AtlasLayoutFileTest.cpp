@@ -112,6 +112,8 @@ TEST(AtlasLayoutFile, whatIsWrongIsNamed)
               std::string::npos);
     EXPECT_NE(errorWith("[16,32,48,64]", "[16,32,48]").find("photograph 2 has in used"),
               std::string::npos);
+    EXPECT_NE(errorWith("[16,32,48,64]", "[16,32,1099511627776,-64]").find("is empty or outside"),
+              std::string::npos);
     EXPECT_NE(errorWith("\"x\":0", "\"x\":5000").find("is not inside"), std::string::npos);
     EXPECT_NE(errorWith("\"photographs\"", "\"photos\"").find("has no list photographs"),
               std::string::npos);

@@ -184,6 +184,6 @@ TEST_P(TileUpdate, aPhotographHasAnotherSize)
     EXPECT_TRUE(sample.equalsFullBuild());
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, TileUpdate, testing::Values("jpg", "png"));
+INSTANTIATE_TEST_SUITE_P(Formats, TileUpdate, testing::Values("jpg", "png", "lossless"));
 
 } // namespace

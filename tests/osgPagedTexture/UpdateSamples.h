@@ -65,6 +65,7 @@ public:
         origin.settings.format.compression = 1;
         origin.settings.format.coding =
             _format == "png" ? osgPagedTexture::TileCoding::Png : osgPagedTexture::TileCoding::Jpeg;
+        origin.settings.lossless = _format == "lossless";
         origin.layout = "sample.tiles.layout.json";
         return origin;
     }
