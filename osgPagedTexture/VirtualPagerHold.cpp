@@ -69,7 +69,7 @@ void VirtualPager::State::takeResults()
 void VirtualPager::State::accept(PageResult result, PagerTexture& texture)
 {
     const bool isNext = texture.next && texture.next->generation == result.page.generation;
-    if (!isNext && texture.generation != result.page.generation)
+    if (!isNext && (texture.generation != result.page.generation || texture.isPaused))
     {
         return;
     }
@@ -190,7 +190,7 @@ bool VirtualPager::State::holdOne(const PageNeed& need, PagerTexture& texture)
     {
         return true;
     }
-    if (texture.next && isTouched(*texture.next, texture.grid, need.page))
+    if (texture.isPaused || (texture.next && isTouched(*texture.next, texture.grid, need.page)))
     {
         return false; // what would come now is not of the state that is shown
     }

@@ -46,6 +46,7 @@ struct PagerTexture
     std::uint32_t lastGeneration = 1;
     std::optional<NextState> next;
     std::optional<StoreWatch::Change> change; ///< That comes after that.
+    bool isPaused = false;                    ///< What is read now may be of a later state.
     int namedTiles = 0;                       ///< Damages told since the last change.
 };
 
