@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What VirtualPager holds. Its parts: choosing and holding pages (VirtualPagerHold.cpp), going to
-// another state of a store (VirtualPagerSwitch.cpp).
+// What VirtualPager holds. Its parts: choosing and holding pages (VirtualPagerHold.cpp), loading
+// them (VirtualPagerLoad.cpp), going to another state of a store (VirtualPagerSwitch.cpp).
 #pragma once
 
 #include <osgPagedTexture/PageCache.h>
