@@ -89,6 +89,7 @@ std::size_t PageSelection::collect(const std::vector<PageNeed>& needs,
             }
         }
     }
+    _collected = bias;
     return _closure.size();
 }
 
@@ -115,7 +116,10 @@ void PageSelection::choose(const std::vector<PageNeed>& needs, const std::vector
         {
             --_bias;
         }
-        collect(needs, coarsest, _bias);
+        if (_bias != _collected)
+        {
+            collect(needs, coarsest, _bias);
+        }
     }
     _pages.clear();
     for (const auto& [page, pixels] : _closure)

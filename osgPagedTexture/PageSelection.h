@@ -63,6 +63,7 @@ private:
                         int bias);
 
     int _bias = 0;
+    int _collected = 0; ///< Bias of what the closure holds.
     std::size_t _unbiased = 0;
     std::unordered_map<PageKey, std::uint32_t> _closure;
     std::vector<PageNeed> _pages;

@@ -200,7 +200,7 @@ void StoreWatch::look(std::uint32_t id, std::unique_lock<std::mutex>& lock)
     const Stamp last = before->second.stamp;
     // Who asks from now on wants to be looked for again.
     const Wish wish = std::exchange(before->second.wish, {});
-    _isLooking = wish.isAsked;
+    before->second.isLookedAt = wish.isAsked;
     lock.unlock();
     const Stamp stamp = stampOf(path);
     std::shared_ptr<const TileReader> opened;
@@ -217,12 +217,12 @@ void StoreWatch::look(std::uint32_t id, std::unique_lock<std::mutex>& lock)
         }
     }
     lock.lock();
-    _isLooking = false;
     const auto found = _stores.find(id);
     if (found == _stores.end())
     {
         return;
     }
+    found->second.isLookedAt = false;
     found->second.stamp = stamp;
     if (!trouble.empty())
     {
@@ -280,24 +280,29 @@ void StoreWatch::tell(Store& store, const std::string& trouble)
 std::vector<StoreWatch::Change> StoreWatch::takeChanges()
 {
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (!_changes.empty() && isAsked())
+    for (const Change& change : _changes)
     {
-        _asked = true; // it had to wait for this
+        _asked = _asked || _stores.at(change.id).wish.isAsked; // it had to wait for this
+    }
+    if (_asked)
+    {
         _wake.notify_all();
     }
     return std::exchange(_changes, {});
 }
 
-bool StoreWatch::isAsked() const
+bool StoreWatch::isBusy(std::uint32_t id) const
 {
-    return std::any_of(_stores.begin(), _stores.end(),
-                       [](const auto& each) { return each.second.wish.isAsked; });
+    const std::lock_guard<std::mutex> lock(_mutex);
+    const auto store = _stores.find(id);
+    return hasChange(id) || (store != _stores.end() && store->second.isAsked());
 }
 
 bool StoreWatch::isBusy() const
 {
     const std::lock_guard<std::mutex> lock(_mutex);
-    return !_changes.empty() || _isLooking || isAsked();
+    return !_changes.empty() || std::any_of(_stores.begin(), _stores.end(),
+                                            [](const auto& each) { return each.second.isAsked(); });
 }
 
 std::vector<std::string> StoreWatch::takeMessages()

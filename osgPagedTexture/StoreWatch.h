@@ -47,7 +47,8 @@ public:
     /// Stores that were opened anew, at most one change each; the next one comes after that.
     std::vector<Change> takeChanges();
 
-    /// Whether a change that was asked for has not been taken yet.
+    /// Whether a change that was asked for has not been taken yet: of a store, of any.
+    bool isBusy(std::uint32_t id) const;
     bool isBusy() const;
 
     std::vector<std::string> takeMessages();
@@ -80,6 +81,9 @@ private:
         std::uint64_t file = 0;       ///< That was opened last.
         std::uint64_t generation = 0; ///< Of it; 0 where the kind of store has none.
         Wish wish;
+        bool isLookedAt = false; ///< Because of a wish.
+
+        bool isAsked() const { return wish.isAsked || isLookedAt; }
         std::string trouble; ///< Was told.
     };
     static Stamp stampOf(const std::string& path);
@@ -88,7 +92,6 @@ private:
     void accept(std::uint32_t id, Store& store, const Wish& wish,
                 std::shared_ptr<const TileReader> opened);
     bool hasChange(std::uint32_t id) const;
-    bool isAsked() const;
     void tell(Store& store, const std::string& trouble);
 
     const double _interval;
@@ -98,7 +101,6 @@ private:
     std::vector<Change> _changes;
     std::vector<std::string> _messages;
     bool _asked = false;
-    bool _isLooking = false;
     bool _ends = false;
     std::thread _thread;
 };

@@ -11,10 +11,6 @@ namespace osgPagedTexture
 namespace
 {
 
-constexpr double RetrySeconds = 2.0;
-constexpr int MostNamedTiles = 8;        ///< Of a store, before one line stands for all the others.
-constexpr std::uint64_t MostAsked = 256; ///< Pages; more would be out of date when they come.
-
 double seconds(std::chrono::steady_clock::duration time)
 {
     return std::chrono::duration<double>(time).count();
@@ -52,67 +48,6 @@ void VirtualPager::State::advance(unsigned int frame)
     }
     hold();
     cancel([&](const PageVersion& page) { return _asked.at(page) != _time; });
-}
-
-void VirtualPager::State::takeResults()
-{
-    for (PageResult& result : _loader.poll())
-    {
-        const auto texture = textures.find(result.page.page.texture);
-        if (_asked.erase(result.page) != 0 && texture != textures.end())
-        {
-            accept(std::move(result), texture->second);
-        }
-    }
-}
-
-void VirtualPager::State::accept(PageResult result, PagerTexture& texture)
-{
-    const bool isNext = texture.next && texture.next->generation == result.page.generation;
-    if (!isNext && texture.generation != result.page.generation)
-    {
-        return;
-    }
-    if (result.state == PageResult::State::Failed)
-    {
-        fail(result, texture);
-        return;
-    }
-    _failed.erase(result.page);
-    if (result.state == PageResult::State::Unchanged)
-    {
-        texture.next->unchanged.insert(result.page.page);
-    }
-    else if (isNext)
-    {
-        texture.next->gathered[result.page.page] = std::move(result.loaded);
-    }
-    else
-    {
-        _cache->put(result.page, result.loaded);
-    }
-}
-
-void VirtualPager::State::fail(const PageResult& result, PagerTexture& texture)
-{
-    const auto [failure, isNew] = _failed.emplace(result.page, Failure());
-    failure->second = {result.mayPass, Clock::now()};
-    if (isNew && texture.namedTiles <= MostNamedTiles)
-    {
-        _messages.push_back(texture.namedTiles < MostNamedTiles
-                                ? result.error
-                                : "osgPagedTexture::VirtualPager: more tiles of '" + texture.path +
-                                      "' cannot be read");
-        ++texture.namedTiles;
-    }
-}
-
-bool VirtualPager::State::hasFailed(const PageVersion& page) const
-{
-    const auto failure = _failed.find(page);
-    return failure != _failed.end() &&
-           (!failure->second.mayPass ||
-            seconds(Clock::now() - failure->second.when) < RetrySeconds);
 }
 
 void VirtualPager::State::choose()
@@ -190,7 +125,7 @@ bool VirtualPager::State::holdOne(const PageNeed& need, PagerTexture& texture)
     {
         return true;
     }
-    if (texture.next && isTouched(*texture.next, texture.grid, need.page))
+    if (texture.isPaused || (texture.next && isTouched(*texture.next, texture.grid, need.page)))
     {
         return false; // what would come now is not of the state that is shown
     }
@@ -215,38 +150,6 @@ bool VirtualPager::State::holdOne(const PageNeed& need, PagerTexture& texture)
         deliver(slot, page, taken, true, false);
     }
     return false;
-}
-
-void VirtualPager::State::ask(const PageVersion& page,
-                              const std::shared_ptr<const TileReader>& store,
-                              const std::string& name, double priority, const ContentHash& known)
-{
-    const auto asked = _asked.find(page);
-    if (asked != _asked.end())
-    {
-        asked->second = _time;
-        return;
-    }
-    const std::uint64_t cached = std::max(settings.cacheBytes / format.bytes(), MinCachePages);
-    if (_asked.size() + _ready < std::min(cached / 2, MostAsked))
-    {
-        _loader.request({page, store, name, format, priority, known});
-        _asked[page] = _time;
-    }
-}
-
-void VirtualPager::State::cancel(const std::function<bool(const PageVersion&)>& isGone)
-{
-    for (auto asked = _asked.begin(); asked != _asked.end();)
-    {
-        if (!isGone(asked->first))
-        {
-            ++asked;
-            continue;
-        }
-        _loader.cancel(asked->first);
-        asked = _asked.erase(asked);
-    }
 }
 
 /// Gives a page a slot, None where there is none.

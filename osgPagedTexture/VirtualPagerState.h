@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What VirtualPager holds. Its parts: choosing and holding pages (VirtualPagerHold.cpp), going to
-// another state of a store (VirtualPagerSwitch.cpp).
+// What VirtualPager holds. Its parts: choosing and holding pages (VirtualPagerHold.cpp), loading
+// them (VirtualPagerLoad.cpp), going to another state of a store (VirtualPagerSwitch.cpp).
 #pragma once
 
 #include <osgPagedTexture/PageCache.h>
@@ -46,6 +46,7 @@ struct PagerTexture
     std::uint32_t lastGeneration = 1;
     std::optional<NextState> next;
     std::optional<StoreWatch::Change> change; ///< That comes after that.
+    bool isPaused = false;                    ///< What is read now may be of a later state.
     int namedTiles = 0;                       ///< Damages told since the last change.
 };
 

@@ -43,6 +43,7 @@ void VirtualPager::State::takeChanges()
             texture.next->generation = ++texture.lastGeneration;
             texture.namedTiles = 0;
         }
+        texture.isPaused = texture.change || watch.isBusy(id);
     }
 }
 

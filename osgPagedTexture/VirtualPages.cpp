@@ -2,15 +2,9 @@
 #include <osgPagedTexture/VirtualPages.h>
 
 #include <algorithm>
-#include <tuple>
 
 namespace osgPagedTexture
 {
-
-bool PageKey::operator<(const PageKey& other) const
-{
-    return std::tie(texture, other.level, y, x) < std::tie(other.texture, level, other.y, other.x);
-}
 
 int pageLevels(const TileGrid& grid)
 {
@@ -28,17 +22,28 @@ bool touches(const TileGrid& grid, const PageKey& page, const PixelRect& pixels)
     return page.x >= range.x && page.x <= range.lastX && page.y >= range.y && page.y <= range.lastY;
 }
 
-std::vector<PageNeed> countPages(std::vector<PageKey> pages)
+std::vector<PageNeed> countPages(const std::vector<PageKey>& pages)
 {
-    std::sort(pages.begin(), pages.end());
-    std::vector<PageNeed> needs;
+    // Neighbours mostly want the same page: runs are far fewer than pixels.
+    std::vector<PageNeed> runs;
     for (const PageKey& page : pages)
     {
-        if (needs.empty() || needs.back().page != page)
+        if (runs.empty() || runs.back().page != page)
         {
-            needs.push_back({page, 0});
+            runs.push_back({page, 0});
         }
-        ++needs.back().pixels;
+        ++runs.back().pixels;
+    }
+    std::sort(runs.begin(), runs.end(),
+              [](const PageNeed& one, const PageNeed& other) { return one.page < other.page; });
+    std::vector<PageNeed> needs;
+    for (const PageNeed& run : runs)
+    {
+        if (needs.empty() || needs.back().page != run.page)
+        {
+            needs.push_back({run.page, 0});
+        }
+        needs.back().pixels += run.pixels;
     }
     return needs;
 }

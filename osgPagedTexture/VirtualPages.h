@@ -15,7 +15,7 @@ namespace osgPagedTexture
 /// left, y from the TOP. A texel (s, t) of level 0, from the top left corner of the atlas, is at
 /// (s, t) / 2^level of a level, also where a level's size was rounded up; its page is that over
 /// the payload, rounded down.
-struct OSGPAGEDTEXTURE_EXPORT PageKey
+struct PageKey
 {
     std::uint32_t texture = 0;
     std::int32_t level = 0;
@@ -29,7 +29,13 @@ struct OSGPAGEDTEXTURE_EXPORT PageKey
     bool operator!=(const PageKey& other) const { return !(*this == other); }
 
     /// By texture, the coarsest level first.
-    bool operator<(const PageKey& other) const;
+    bool operator<(const PageKey& other) const
+    {
+        return texture != other.texture ? texture < other.texture
+               : level != other.level   ? level > other.level
+               : y != other.y           ? y < other.y
+                                        : x < other.x;
+    }
 
     /// The page that covers it, `levels` levels coarser.
     PageKey ancestor(int levels = 1) const
@@ -82,8 +88,8 @@ OSGPAGEDTEXTURE_EXPORT bool touches(const TileGrid& grid, const PageKey& page,
                                     const PixelRect& pixels);
 
 /// What a feedback picture asks for: equal pages become one with the number of their pixels.
-/// Sorted. Takes the pages, in any order.
-OSGPAGEDTEXTURE_EXPORT std::vector<PageNeed> countPages(std::vector<PageKey> pages);
+/// Sorted. Pixels may come in any order; in that of rows it is fast.
+OSGPAGEDTEXTURE_EXPORT std::vector<PageNeed> countPages(const std::vector<PageKey>& pages);
 
 } // namespace osgPagedTexture
 

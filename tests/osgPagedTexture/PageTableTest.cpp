@@ -122,7 +122,7 @@ TEST(PageTableTest, theChangesToldBringACopyUpToDate)
     }
 }
 
-TEST(PageTableTest, oneChangedPageIsAFewEntriesToUpload)
+TEST(PageTableTest, changedPagesFarFromEachOtherAreAFewEntriesToUpload)
 {
     const TileGrid grid(100000, 100000, 100, 0);
     PageTable table(grid);
@@ -130,12 +130,13 @@ TEST(PageTableTest, oneChangedPageIsAFewEntriesToUpload)
     table.map({0, 0, 700, 700}, 4);
     table.takeChanges();
     table.map({0, 0, 10, 10}, 5);
+    table.map({0, 0, 900, 900}, 6);
     std::int64_t entries = 0;
     for (const TableRect& rect : table.takeChanges())
     {
         entries += std::int64_t(rect.width) * rect.height;
     }
-    EXPECT_EQ(entries, 1);
+    EXPECT_EQ(entries, 2);
 }
 
 TEST(PageTableTest, levelsLieBesideEachOther)

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "PictureFiles.h"
 
+#include <support/TemporaryFolder.h>
+
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 
@@ -131,6 +135,15 @@ void writePicture(const std::string& path, const Pixels& pixels, const std::stri
     {
         throw std::runtime_error(path + ": " + (output ? output->geterror() : OIIO::geterror()));
     }
+}
+
+std::string encodePng(const Pixels& pixels)
+{
+    const support::TemporaryFolder folder;
+    const std::string path = folder.file("picture.png");
+    writePicture(path, pixels);
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
 }
 
 int largestDifference(const Pixels& a, const Pixels& b)

@@ -26,6 +26,9 @@ std::string encodeJpeg(const osgPagedTexture::Pixels& pixels, const JpegOptions&
 void writePicture(const std::string& path, const osgPagedTexture::Pixels& pixels,
                   const std::string& type = "uint8", bool tiled = false);
 
+/// The bytes of a PNG file.
+std::string encodePng(const osgPagedTexture::Pixels& pixels);
+
 /// The largest difference of two pictures' channels; 256 where their shapes differ.
 int largestDifference(const osgPagedTexture::Pixels& a, const osgPagedTexture::Pixels& b);
 

@@ -90,7 +90,7 @@ public:
                 }
             }
         }
-        return countPages(std::move(pages));
+        return countPages(pages);
     }
 
 private:

@@ -24,16 +24,6 @@ namespace
 constexpr int Width = 300;
 constexpr int Height = 170;
 
-/// Bytes of a PNG file.
-std::string encodePng(const Pixels& pixels)
-{
-    const support::TemporaryFolder folder;
-    const std::string path = folder.file("tile.png");
-    writePicture(path, pixels);
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
 std::string encodeUniform(const TileColor& color, int width, int height)
 {
     Pixels pixels(width, height, 3);

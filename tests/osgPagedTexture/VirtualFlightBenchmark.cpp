@@ -7,13 +7,14 @@
 //       [--budgets MiB,...] [--pages SIDE,...] [--reductions N,...] [--upload KiB] [--format BC1]
 //
 // The store has JPEG tiles of quality 85 and is made anew, in the temporary folder: about 0.7 bytes
-// a texel. A frame takes 1/60 s, as on a machine whose time is spent elsewhere.
+// a texel. A frame takes 1/60 s, as on a machine whose time is spent elsewhere; where the computing
+// of the feedback picture takes longer, the flight is slower and the column "frame" says it.
 //
 // Columns: MiB of slots, page side, feedback 1/n; pages needed a frame and the bias, on average;
 // pixels whose page is there, and levels that pixels lack on average, both over the flight; pages
 // uploaded a frame on average and at most; pages that came from memory; CPU ms of advance() and
-// takeUploads() on average and at most; worker threads' load; seconds from a jump until all is
-// sharp, median and most.
+// takeUploads() on average and at most; worker threads' load; ms of a frame; seconds from a jump
+// until all is sharp, median and most.
 #include "PictureFiles.h"
 #include "PlaneFlight.h"
 
@@ -157,11 +158,13 @@ public:
     void fly()
     {
         const Clock::time_point start = Clock::now();
-        for (double now = 0.0; now < _options.seconds; now = secondsSince(start))
+        const int frames = int(_options.seconds * 60.0);
+        for (int i = 0; i < frames; ++i)
         {
-            frame(cameraAt(now));
-            lookAt(cameraAt(now));
+            frame(cameraAt(i / 60.0));
+            lookAt(cameraAt(i / 60.0));
         }
+        _frameTime = 1000.0 * secondsSince(start) / frames;
         _load = _pager.getStatistics().workerSeconds / secondsSince(start);
     }
 
@@ -190,11 +193,11 @@ public:
         const VirtualPagerStatistics statistics = _pager.getStatistics();
         const double asked = double(statistics.cacheHits + statistics.cacheMisses);
         std::printf("%5d %5d  1/%-2d %7.0f %5.2f  %6.2f%% %6.3f  %6.1f %5.0f  %5.1f%%  %5.2f %5.1f "
-                    " %5.2f  %5.2f %5.2f\n",
+                    " %5.2f %5.1f  %5.2f %5.2f\n",
                     _task.budget, _task.page, _task.reduction, _needed.mean(), _bias.mean(),
                     100.0 * _there.mean(), _lack.mean(), _uploads.mean(), _uploads.most,
                     asked > 0 ? 100.0 * double(statistics.cacheHits) / asked : 0.0, _work.mean(),
-                    _work.most, _load, _sharp[_sharp.size() / 2], _sharp.back());
+                    _work.most, _load, _frameTime, _sharp[_sharp.size() / 2], _sharp.back());
         std::fflush(stdout);
     }
 
@@ -249,7 +252,7 @@ private:
     std::mt19937 _random{1};
     unsigned int _frame = 0;
     Sum _needed, _bias, _there, _lack, _uploads, _work;
-    double _load = 0.0;
+    double _load = 0.0, _frameTime = 0.0;
     std::vector<double> _sharp;
 };
 
@@ -305,7 +308,7 @@ int main(int argc, char** argv)
     }
     const support::TemporaryFolder folder;
     std::printf("  MiB  page  feed  needed  bias   there   lack  pages  most   memory  work  most  "
-                " load  sharp  most\n");
+                " load frame  sharp  most\n");
     for (const int page : options.pages)
     {
         const std::string store = folder.file("flight" + std::to_string(page) + ".tiles");

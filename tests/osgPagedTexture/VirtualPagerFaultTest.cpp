@@ -35,9 +35,29 @@ struct VirtualPagerFaultTest : testing::Test
         writer.commit();
     }
 
+    /// A folder of few tiles: each is a picture file.
+    void writeFolder(int version)
+    {
+        source.width = source.height = 110;
+        grid = source.settings().grid;
+        const auto encode = [](const TileColor& color, int width, int height)
+        {
+            Pixels pixels(width, height, 3);
+            for (std::size_t i = 0; i < pixels.bytes.size(); ++i)
+            {
+                pixels.bytes[i] = color[i % 3];
+            }
+            return encodePng(pixels);
+        };
+        TileFolderWriter writer(tiles, FolderLayout::LibVT, source.settings(), encode);
+        source.put(writer, version);
+        writer.commit();
+    }
+
     support::TemporaryFolder folder;
+    const std::string tiles = folder.file("tiles");
     ColorStore source;
-    const TileGrid grid = source.settings().grid;
+    TileGrid grid = source.settings().grid;
     const std::string store = folder.file("store.tiles");
     ContextModel model;
     unsigned int frame = 0;
@@ -170,35 +190,41 @@ TEST_F(VirtualPagerFaultTest, aStoreOfAnotherSizeIsNotShownInTheOldOnesPlace)
 
 TEST_F(VirtualPagerFaultTest, aFolderThatIsGoneDoesNotBecomeEmptyPages)
 {
-    const std::string path = folder.file("tiles");
-    {
-        const auto encode = [](const TileColor& color, int width, int height)
-        {
-            Pixels pixels(width, height, 3);
-            for (std::size_t i = 0; i < pixels.bytes.size(); ++i)
-            {
-                pixels.bytes[i] = color[i % 3];
-            }
-            return encodeJpeg(pixels);
-        };
-        TileStoreSettings settings = source.settings();
-        settings.format = "jpg";
-        TileFolderWriter writer(path, FolderLayout::LibVT, settings, encode);
-        source.put(writer, 1);
-        writer.commit();
-    }
+    writeFolder(1);
     VirtualPager pager(smallPager(200));
-    pager.addTexture(path);
+    pager.addTexture(tiles);
     pager.report(0, needsOf(grid, 0, 1, 2, 2, 4, 4));
     settle(pager, model, frame);
     EXPECT_TRUE(model.holds({0, 1, 5, 5}));
+    EXPECT_EQ(model.versions(0, grid), std::set<int>{1});
 
-    fs::remove_all(path);
+    fs::remove_all(tiles);
     pager.report(0, needsOf(grid, 0, 0, 4, 4, 8, 8));
     settle(pager, model, frame);
     EXPECT_FALSE(model.holds({0, 0, 5, 5}));
     EXPECT_TRUE(model.holds({0, 1, 5, 5}));
     EXPECT_GE(countLines(pager.takeMessages(), "is gone"), 1);
+}
+
+TEST_F(VirtualPagerFaultTest, aFolderThatChangesIsNotMixedOnceItIsInvalid)
+{
+    writeFolder(1);
+    VirtualPager pager(smallPager(200));
+    pager.addTexture(tiles);
+    pager.report(0, needsOf(grid, 0, 0, 0, 0, 5, 5));
+    settle(pager, model, frame);
+    writeFolder(2);
+    pager.invalidate(0);
+    for (int i = 0; i < 9; ++i)
+    {
+        pager.report(0, needsOf(grid, 0, 0, i, i, 5, 5));
+        pager.advance(++frame);
+        model.apply(pager.takeUploads(0, 1000));
+        EXPECT_EQ(model.versions(0, grid).size(), 1u) << i;
+        pager.waitForLoads(0.002);
+    }
+    settle(pager, model, frame);
+    EXPECT_EQ(model.versions(0, grid), std::set<int>{2});
 }
 
 TEST_F(VirtualPagerFaultTest, aStoreThatIsNotThereIsRefusedWithItsName)

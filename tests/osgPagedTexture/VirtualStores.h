@@ -20,7 +20,7 @@ namespace osgPagedTexture
 inline TileColor colorOf(const PageKey& page, int version)
 {
     return {std::uint8_t(page.level * 16 + version), std::uint8_t(page.x), std::uint8_t(page.y),
-            std::uint8_t(200 + page.texture)};
+            std::uint8_t(255 - page.texture)};
 }
 
 struct ColorStore
