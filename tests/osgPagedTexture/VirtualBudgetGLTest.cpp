@@ -114,15 +114,22 @@ TEST_F(VirtualBudgetGLTest, twoContextsShowTheSameSceneEachFromItsPlace)
     const auto expectedNear = virtuals::settle(_viewer, *alone, alone, near);
     const auto expectedFar = virtuals::settle(_viewer, *alone, alone, far);
     osg::ref_ptr<osg::Image> actualNear, actualFar;
-    for (int frame = 0; frame < 60; ++frame)
+    for (int calm = 0, frame = 0; calm < 3 && frame < 2000; ++frame)
     {
+        // Each viewer takes its context for the thread's current one.
+        _viewer.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
         actualNear = _viewer.render(both, near, 320, 240);
+        second.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
         actualFar = second.render(both, far, 320, 240);
+        calm = both->isAtRest() ? calm + 1 : 0;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
     EXPECT_EQ(support::difference(*actualNear, *expectedNear, 0.0).worst, 0.0);
     EXPECT_EQ(support::difference(*actualFar, *expectedFar, 0.0).worst, 0.0);
     EXPECT_EQ(both->getPlans().size(), 2u);
+    // The first viewer's objects go in its own context.
+    second.getViewer().setSceneData(nullptr);
+    _viewer.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
 }
 
 TEST_F(VirtualBudgetGLTest, severalTexturesAndUnitsShareTheSlots)
