@@ -54,8 +54,8 @@ public:
     /// What a view remembers from frame to frame.
     struct View
     {
-        /// Pictures of a view at rest, each of other pixels, after which its needs are known.
-        static constexpr int CalmPictures = 16;
+        /// Pictures of a view at rest after which its needs are known.
+        static constexpr int CalmPictures = 8;
 
         std::unique_ptr<VirtualFeedback> feedback;
         unsigned int number = 0;      ///< With the pager.

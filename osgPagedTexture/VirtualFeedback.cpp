@@ -4,6 +4,9 @@
 #include <osg/FrameBufferObject>
 #include <osg/GLExtensions>
 
+#include <algorithm>
+#include <unordered_map>
+
 namespace osgPagedTexture
 {
 
@@ -16,15 +19,27 @@ constexpr std::size_t mostWays = 3;
 /// Frames after which a picture has surely come, where GL can't say it.
 constexpr unsigned int surelyThere = 3;
 
+/// Neighbours mostly need the same page: only the first of a run is looked up.
 std::vector<PageNeed> needsOf(const std::vector<std::uint16_t>& texels)
 {
-    std::vector<PageKey> pages;
-    pages.reserve(texels.size() / channels);
+    std::unordered_map<PageKey, std::uint32_t> pixels;
+    std::uint32_t* count = nullptr;
     for (std::size_t i = 0; i + channels <= texels.size(); i += channels)
-        if (texels[i])
-            pages.push_back(
-                {std::uint32_t(texels[i] - 1), texels[i + 1], texels[i + 2], texels[i + 3]});
-    return countPages(std::move(pages));
+    {
+        const std::uint16_t* texel = texels.data() + i;
+        if (i == 0 || !std::equal(texel, texel + channels, texel - channels))
+            count = texel[0] == 0 ? nullptr
+                                  : &pixels[{std::uint32_t(texel[0] - 1), texel[1], texel[2],
+                                             texel[3]}];
+        if (count)
+            ++*count;
+    }
+    std::vector<PageNeed> needs;
+    for (const auto& [page, number] : pixels)
+        needs.push_back({page, number});
+    std::sort(needs.begin(), needs.end(),
+              [](const PageNeed& a, const PageNeed& b) { return a.page < b.page; });
+    return needs;
 }
 
 } // namespace
@@ -57,10 +72,10 @@ void VirtualFeedback::bind(osg::State& state, int width, int height)
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void VirtualFeedback::start(osg::State& state)
+bool VirtualFeedback::start(osg::State& state)
 {
     if (_ways.size() >= mostWays)
-        return;
+        return false;
     const auto* gl = state.get<osg::GLExtensions>();
     Way way;
     way.width = _width;
@@ -84,6 +99,7 @@ void VirtualFeedback::start(osg::State& state)
     if (gl->glFenceSync)
         way.fence = gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     _ways.push_back(std::move(way));
+    return true;
 }
 
 bool VirtualFeedback::take(osg::State& state, std::vector<PageNeed>& needs)

@@ -26,8 +26,8 @@ public:
     /// Binds targets of this size and clears them. Leaves them bound.
     void bind(osg::State& state, int width, int height);
 
-    /// Sends what is bound on its way.
-    void start(osg::State& state);
+    /// Sends what is bound on its way; false where too many are, and this one does not count.
+    bool start(osg::State& state);
 
     /// What has come since the last call, the newest; false where nothing has.
     bool take(osg::State& state, std::vector<PageNeed>& needs);

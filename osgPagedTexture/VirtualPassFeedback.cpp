@@ -140,7 +140,7 @@ void VirtualPass::drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
         goOn(renderInfo, frame, view);
     const bool isFading = !_settings.wait &&
                           _seconds < _context->getLastArrival() + _settings.fadeSeconds;
-    _resources->setBusy(frame.getStage().getCamera(), _frameNumber, _hasFeedback || isFading);
+    _resources->setBusy(frame.getStage().getCamera(), _frameNumber, _hasFeedback || view.feedback->isOnItsWay() || isFading);
 }
 
 void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
@@ -160,12 +160,14 @@ void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     view.seen = seen;
     if (_codes.empty())
         return;
-    if (view.calmFrames >= unsigned(VirtualContext::View::CalmPictures) && !view.feedback->isOnItsWay() && pager.isAtRest())
+    if (view.calmFrames >= unsigned(VirtualContext::View::CalmPictures))
         return;
     const osgMultiRender::FramebufferVisit visit(state);
-    drawFeedback(renderInfo, frame, view, _settings.feedback, view.calmFrames + _frameNumber);
-    view.feedback->start(state);
-    ++view.calmFrames;
+    // The last one looks at each pixel: slivers of pages fall between those of the others.
+    const bool isLast = view.calmFrames + 1 == unsigned(VirtualContext::View::CalmPictures);
+    drawFeedback(renderInfo, frame, view, isLast ? 1 : _settings.feedback,
+                 view.calmFrames + _frameNumber);
+    view.calmFrames += view.feedback->start(state);
 }
 
 void VirtualPass::waitForPages(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
@@ -182,19 +184,13 @@ void VirtualPass::waitForPages(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     _context->upload(state, 1e9, _seconds);
     if (!_codes.empty())
     {
-        std::vector<PageNeed> all;
         const osgMultiRender::FramebufferVisit visit(state);
-        // Taps along footprints are chosen by chance.
+        // Taps along footprints are chosen by chance; the pager remembers all of them.
         for (unsigned int picture = 0; picture < 4; ++picture)
         {
             drawFeedback(renderInfo, frame, view, 1, picture);
-            const std::vector<PageNeed> needs = view.feedback->readNow();
-            all.insert(all.end(), needs.begin(), needs.end());
+            pager.report(view.number, view.feedback->readNow());
         }
-        std::vector<PageKey> pages;
-        for (const PageNeed& need : all)
-            pages.insert(pages.end(), need.pixels, need.page);
-        pager.report(view.number, countPages(std::move(pages)));
     }
     const auto start = std::chrono::steady_clock::now();
     // The pager is never at rest where another context waits for its next frame.

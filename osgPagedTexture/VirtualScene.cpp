@@ -7,7 +7,6 @@
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
-#include <osgDB/FileUtils>
 #include <osgGA/EventVisitor>
 
 #include <map>
@@ -126,12 +125,9 @@ void VirtualScene::install(const osgDB::Options* options)
     for (const auto& each : installer.textures)
     {
         VirtualTexture& texture = *each.second;
-        if (texture.getFile().empty())
-        {
-            const std::string found = osgDB::findDataFile(texture.getStore(), options);
-            // What can't be read is said when it is drawn.
-            texture.loadImage(found.empty() ? texture.getStore() : found);
-        }
+        // One from a file was found when that was read. What can't be read is said when it is drawn.
+        if (texture.getFile() != texture.getStore() || texture.find(options))
+            texture.loadImage();
         _resources->add(texture);
     }
 }

@@ -7,6 +7,7 @@
 
 #include <osg/Image>
 #include <osg/State>
+#include <osgDB/FileUtils>
 
 #include <algorithm>
 #include <cstring>
@@ -121,12 +122,17 @@ void VirtualTexture::setStore(const std::string& store)
     setImage(greyTexel());
 }
 
-std::string VirtualTexture::loadImage(const std::string& file)
+bool VirtualTexture::find(const osgDB::Options* options)
 {
-    _file = file;
+    _file = osgDB::findDataFile(_store, options);
+    return !_file.empty();
+}
+
+std::string VirtualTexture::loadImage()
+{
     try
     {
-        setImage(imageOf(coarsestOf(*openTileStore(file))));
+        setImage(imageOf(coarsestOf(*openTileStore(getFile()))));
         return {};
     }
     catch (const TileStoreError& error)

@@ -8,6 +8,11 @@
 
 #include <string>
 
+namespace osgDB
+{
+class Options;
+} // namespace osgDB
+
 namespace osgPagedTexture
 {
 
@@ -34,15 +39,18 @@ public:
     void setStore(const std::string& store);
     const std::string& getStore() const { return _store; }
 
-    /// Makes the coarsest page the image; in the calling thread. Returns an empty string, or why
-    /// the store can't be read: then the image is a grey texel. `file` is where the store was
-    /// found.
-    std::string loadImage(const std::string& file);
+    /// Looks for the store in the options' folders and OSG's. False where it is not there.
+    bool find(const osgDB::Options* options);
+    /// Where find() found it, else the store's name.
+    const std::string& getFile() const { return _file.empty() ? _store : _file; }
+
+    /// Makes the coarsest page of getFile() the image; in the calling thread. Returns an empty
+    /// string, or why the store can't be read: then the image is a grey texel.
+    std::string loadImage();
+
     /// Puts another picture of the same size, and its levels, in the place of the image in one
     /// context. Uses unit 0; in the draw thread.
     void showPicture(osg::State& state, const Pixels& picture) const;
-    /// Where loadImage() found the store; empty before that.
-    const std::string& getFile() const { return _file; }
 
 protected:
     ~VirtualTexture() override = default;

@@ -42,7 +42,9 @@ bool readStore(osg::Object& object, osgDB::Input& in)
 {
     if (!in[0].matchWord("store") || !in[1].getStr())
         return false;
-    static_cast<VirtualTexture&>(object).setStore(in[1].getStr());
+    auto& texture = static_cast<VirtualTexture&>(object);
+    texture.setStore(in[1].getStr());
+    texture.find(in.getOptions()); // Beside the file that names it.
     in += 2;
     return true;
 }
