@@ -372,6 +372,9 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     if (!_buffer)
         _gl->glGenBuffers(1, &_buffer);
     _gl->glBindBuffer(UnpackBuffer, _buffer);
+    const double ordered = threadMilliseconds();
+    _pace.took(0, ordered - start); // Says nothing about the rate.
+    start = ordered;
     while (_build || !_jobs.empty())
     {
         const std::uint64_t piece = _pace.piece();
