@@ -58,7 +58,8 @@ TEST_F(PagedPictureGLTest, sidesThatAreNoPowersOfTwoShowTheSameToo)
     float x = -5.0f;
     for (const auto& size : sizes)
     {
-        const std::string name = "p" + std::to_string(size[0]) + ".png";
+        const std::string name =
+            "p" + std::to_string(size[0]) + "x" + std::to_string(size[1]) + ".png";
         paged::writePicture(_folder, name, size[0], size[1]);
         model->addChild(
             paged::makeSquare({x, 30.0f, 0.0f}, paged::makeTexture(_folder.file(name))));
