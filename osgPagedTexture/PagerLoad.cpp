@@ -57,11 +57,13 @@ void Pager::takeResults()
 {
     if (!_loader)
         return;
-    while (backlog() <= _settings.cpuBytes() / 4)
+    std::uint64_t waiting = backlog();
+    while (waiting <= _settings.cpuBytes() / 4)
     {
         const std::vector<ChainResult> results = _loader->poll(1);
         if (results.empty())
             break;
+        waiting += results.front().chain ? results.front().chain->bytes() : 0;
         accept(results.front());
     }
     for (const std::string& message : _loader->takeMessages())

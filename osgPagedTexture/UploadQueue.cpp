@@ -171,13 +171,16 @@ void UploadQueue::takeOrders()
         std::lock_guard<std::mutex> lock(_mutex);
         ordered.swap(_ordered);
     }
+    std::unordered_map<unsigned int, const UploadJob*> newest;
+    for (const UploadJob& job : ordered)
+        newest[job.texture] = &job;
+    const auto isReplaced = [&](const UploadJob& job) { return newest.count(job.texture) > 0; };
+    _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(), isReplaced), _jobs.end());
     for (UploadJob& job : ordered)
     {
         const unsigned int texture = job.texture;
-        _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(),
-                                   [texture](const UploadJob& each)
-                                   { return each.texture == texture; }),
-                    _jobs.end());
+        if (newest[texture] != &job)
+            continue;
         if (_build && _build->job.texture == texture)
         {
             glDeleteTextures(1, &_build->texture.name);
