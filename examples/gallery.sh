@@ -7,10 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 lit='.(shadows=off,lighting=pixel).shadowvolume'
 shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
 volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
-measuring=measuring labels=labels maplabels=maplabels mixed=mixed # have no plain form
+measuring=measuring labels=labels maplabels=maplabels mixed=mixed paged=paged # have no plain form
 while (($#)); do
     case $1 in
-        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels= mixed=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels= mixed= paged=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -22,7 +22,8 @@ scenes=build/gallery/scenes
 trap 'status=$?; ((status == 0)) || echo "gallery FAILED after $((SECONDS - start)) s" >&2' EXIT
 # Not the tests, which take most of the building time.
 OSGKITS_TARGETS="osgrender osgdb_egl osgdb_osmesa osgdb_shadowvolume osgrefinery osgdb_labels
-    osgdb_serializers_osglabels osgdb_multirender" ./setup.sh
+    osgdb_serializers_osglabels osgdb_multirender
+    osgphotocity osgdb_pagedtexture" ./setup.sh
 mkdir -p "$formats"
 
 # Other formats, made from Inventor models by stock osgconv.
@@ -42,8 +43,10 @@ for refinery in "3000 refinery.osgb" "3000 refinery.iv" "60000 refinery60000.osg
     OSG_LIBRARY_PATH=build/lib build/bin/osgrefinery --objects "${refinery% *}" "$scenes/${refinery#* }" >"$out/osgrefinery.log"
 done
 
+build/bin/osgphotocity --textures 40 "$scenes/photos.osgb" >"$out/osgphotocity.log"
+
 scripts=()
-for script in shadows $labels $maplabels $mixed $measuring chess machines robots scenes vehicles household formats; do
+for script in shadows $labels $maplabels $mixed $paged $measuring chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"

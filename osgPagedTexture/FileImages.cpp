@@ -137,9 +137,9 @@ osg::ref_ptr<osg::Image> FileImages::standIn(const std::string& name, const osgD
     const std::string file = osgDB::findDataFile(name, options);
     if (file.empty())
         return nullptr;
-    for (const Found& found : _found)
-        if (found.file == file && found.name == name)
-            return found.image;
+    const auto known = _byName.find({name, file});
+    if (known != _byName.end())
+        return _found[known->second].image;
     Found found{name, file, {}, nullptr, options};
     try
     {
@@ -153,6 +153,7 @@ osg::ref_ptr<osg::Image> FileImages::standIn(const std::string& name, const osgD
     }
     found.image = makeStandIn(name, found.info.translucent);
     setNumber(*found.image, _found.size());
+    _byName[{name, file}] = _found.size();
     _found.push_back(found);
     return found.image;
 }

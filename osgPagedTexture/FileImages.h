@@ -7,7 +7,9 @@
 #include <osgDB/Options>
 
 #include <deque>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace osgPagedTexture
 {
@@ -55,6 +57,7 @@ public:
 private:
     FileImages* const _outer;
     std::deque<Found> _found;
+    std::map<std::pair<std::string, std::string>, std::size_t> _byName; ///< And by file.
 };
 
 /// What a paged texture has as its image: translucent or not, written to files as its name alone.

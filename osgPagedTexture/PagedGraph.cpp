@@ -55,7 +55,7 @@ osg::ref_ptr<osg::Geometry> makeBars(const std::vector<double>& times, double bu
 {
     osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
     osg::ref_ptr<osg::Vec4Array> colors = new osg::Vec4Array;
-    addQuad(*vertices, *colors, 6.0f, 6.0f, float(Bars) + 8.0f, Height + 44.0f,
+    addQuad(*vertices, *colors, 6.0f, 6.0f, 488.0f, Height + 44.0f, // As wide as the text.
             osg::Vec4(0.0f, 0.0f, 0.0f, 0.6f));
     const std::size_t first = times.size() > Bars ? times.size() - Bars : 0;
     for (std::size_t i = first; i < times.size(); ++i)

@@ -131,7 +131,10 @@ bool PagedScene::isAtRest() const
 
 PagerStatistics PagedScene::getStatistics() const
 {
-    return _pager->getStatistics();
+    PagerStatistics statistics = _pager->getStatistics();
+    std::lock_guard<std::mutex> lock(_views->mutex);
+    statistics.prefetchMilliseconds = _views->prefetchMilliseconds;
+    return statistics;
 }
 
 void PagedScene::traverse(osg::NodeVisitor& visitor)
@@ -219,7 +222,7 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
     osgMultiRender::Plan plan;
     plan.kit = "osgPagedTexture::PagedScene";
     plan.view = "all";
-    const PagerStatistics statistics = _pager->getStatistics();
+    const PagerStatistics statistics = getStatistics();
     std::size_t named = 0;
     for (const Pager::Line& line : _pager->getLines())
     {
@@ -243,11 +246,9 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
         plan.entries.push_back({std::to_string(named - maxPlanned) + " more textures",
                                 Decision::Folded, "only the first ones are listed"});
     std::vector<std::pair<std::string, std::string>> notPaged;
-    double prefetchMilliseconds = 0.0;
     {
         std::lock_guard<std::mutex> lock(_views->mutex);
         notPaged = _left;
-        prefetchMilliseconds = _views->prefetchMilliseconds;
     }
     for (const auto& [name, reason] : notPaged)
         plan.entries.push_back(
@@ -274,7 +275,7 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
                    {"upload.ms.p99", times.getPercentile(99.0)},
                    {"upload.ms.max", times.getLargest()},
                    {"plan.ms", statistics.planMilliseconds},
-                   {"prefetch.ms", prefetchMilliseconds},
+                   {"prefetch.ms", statistics.prefetchMilliseconds},
                    {"texels.needed", statistics.neededTexels},
                    {"texels.missing", statistics.missingTexels}};
     return {plan};

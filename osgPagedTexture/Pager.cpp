@@ -110,6 +110,7 @@ void Pager::advanceLocked()
         return;
     plan();
     _changing = 0;
+    _asked = 0;
     for (unsigned int i = 0; i < _entries.size(); ++i)
         moveTo(i);
     _planMilliseconds = threadMilliseconds() - start;

@@ -142,6 +142,7 @@ private:
         int finest = 0; ///< Of what GL and the file allow.
         RequestId request = 0;
         int requested = -1;
+        double urgency = 0.0; ///< The request's priority.
         unsigned int users = 1;
         bool isWatched = false;
         bool isOld = false; ///< What contexts show is of a file that has changed.
@@ -154,6 +155,7 @@ private:
         std::vector<int> queued; ///< Level on its way; None: nothing is.
     };
     static constexpr int None = -2;
+    static constexpr int MostAsked = 512; ///< Requests a frame; 1 ms or so.
 
     void advanceLocked();
     void meetContexts();
@@ -201,6 +203,7 @@ private:
     unsigned int _reported = ~0u;
     double _planMilliseconds = 0.0;
     std::size_t _changing = 0;
+    int _asked = 0; ///< In this frame.
     FrameTimes _times, _bytes;
 };
 

@@ -57,11 +57,13 @@ void Pager::takeResults()
 {
     if (!_loader)
         return;
-    while (backlog() <= _settings.cpuBytes() / 4)
+    std::uint64_t waiting = backlog();
+    while (waiting <= _settings.cpuBytes() / 4)
     {
         const std::vector<ChainResult> results = _loader->poll(1);
         if (results.empty())
             break;
+        waiting += results.front().chain ? results.front().chain->bytes() : 0;
         accept(results.front());
     }
     for (const std::string& message : _loader->takeMessages())
@@ -202,12 +204,21 @@ void Pager::ask(unsigned int texture)
     const int there = coarsest(texture);
     // A request a level coarser is let through: what comes of it helps, and nothing is decoded in
     // vain where the need grows with each frame.
+    const double urgency = priority(entry, there);
     if (entry.request && entry.requested >= entry.target && entry.requested <= entry.target + 1)
     {
-        _loader->setPriority(entry.request, priority(entry, there));
+        // A level is worth 10, and each change takes the loader's lock.
+        if (std::abs(urgency - entry.urgency) <= 1.0)
+            return;
+        entry.urgency = urgency;
+        _loader->setPriority(entry.request, urgency);
         return;
     }
+    // The others' turn comes with the next frames.
+    if (++_asked > MostAsked)
+        return;
     cancel(texture);
+    entry.urgency = urgency;
     const std::string key = formatName(entry.format) + "." +
                             std::to_string(int(entry.image.use)) + "." +
                             std::to_string(int(_settings.quality));
@@ -218,7 +229,7 @@ void Pager::ask(unsigned int texture)
     request.file = entry.image.file;
     request.recipe = recipe;
     request.firstLevel = entry.target;
-    request.priority = priority(entry, there);
+    request.priority = urgency;
     request.previewSide = there == UploadEvent::Gone ? int(_settings.previewSide) : 0;
     entry.request = loader().request(request);
     entry.requested = entry.target;

@@ -36,6 +36,7 @@ struct PagerStatistics
     std::uint64_t plannedBytes = 0;
     std::uint64_t wholeBytes = 0; ///< Of all of them at full size.
     double planMilliseconds = 0.0;
+    double prefetchMilliseconds = 0.0; ///< Of the last view that looked ahead.
     UploadStatistics upload; ///< Of the context that has most.
     ChainLoader::Statistics loader;
 };

@@ -23,7 +23,7 @@ void UploadPace::widen(double milliseconds)
 std::uint64_t UploadPace::piece() const
 {
     // Half of what is left, so that a piece that takes twice as long still fits.
-    const double bytes = std::min(0.5 * (_budget - _spent) * _rate, double(LargestPiece));
+    const double bytes = _rate == 0.0 ? 0.0 : std::min(0.5 * (_budget - _spent) * _rate, double(LargestPiece));
     if (bytes >= double(LeastPiece))
         return std::uint64_t(bytes);
     return _isFirst ? LeastPiece : 0;
@@ -31,7 +31,7 @@ std::uint64_t UploadPace::piece() const
 
 void UploadPace::took(std::uint64_t bytes, double milliseconds)
 {
-    _isFirst = false;
+    _isFirst = _isFirst && bytes == 0;
     if (!std::isfinite(milliseconds) || milliseconds <= 0.0)
         return;
     _spent += milliseconds;
@@ -39,7 +39,8 @@ void UploadPace::took(std::uint64_t bytes, double milliseconds)
         return;
     // Slower counts at once, faster bit by bit.
     const double rate = std::clamp(double(bytes) / milliseconds, 1024.0, 1e9);
-    _rate = rate < _rate ? rate : 0.875 * _rate + 0.125 * rate;
+    const bool isSlower = rate < _rate || _rate == 0.0;
+    _rate = isSlower ? rate : 0.875 * _rate + 0.125 * rate;
 }
 
 } // namespace osgPagedTexture

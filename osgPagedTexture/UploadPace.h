@@ -9,7 +9,7 @@ namespace osgPagedTexture
 {
 
 /// How many bytes may go to the GPU now, so that a frame's uploads stay within their time. What the
-/// last pieces took decides how large the next ones are.
+/// last pieces took decides how large the next ones are; the first one is the smallest.
 class OSGPAGEDTEXTURE_EXPORT UploadPace
 {
 public:
@@ -28,14 +28,14 @@ public:
     /// least LeastPiece, so that it goes on however short the time is.
     std::uint64_t piece() const;
 
-    /// A piece took that long. Times that are not finite or not above 0 count as no time.
+    /// A piece took that long; 0 bytes: what else the frame's uploads did. Times that are not finite or not above 0 count as no time.
     void took(std::uint64_t bytes, double milliseconds);
 
     double getSpent() const { return _spent; } ///< Milliseconds in this frame.
-    double getRate() const { return _rate; }   ///< Bytes a millisecond, as measured.
+    double getRate() const { return _rate; }   ///< Bytes a millisecond; 0: not measured yet.
 
 private:
-    double _rate = 256.0 * 1024.0;
+    double _rate = 0.0;
     double _budget = 0.0;
     double _spent = 0.0;
     bool _isFirst = true;

@@ -172,13 +172,16 @@ void UploadQueue::takeOrders()
         std::lock_guard<std::mutex> lock(_mutex);
         ordered.swap(_ordered);
     }
+    std::unordered_map<unsigned int, const UploadJob*> newest;
+    for (const UploadJob& job : ordered)
+        newest[job.texture] = &job;
+    const auto isReplaced = [&](const UploadJob& job) { return newest.count(job.texture) > 0; };
+    _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(), isReplaced), _jobs.end());
     for (UploadJob& job : ordered)
     {
         const unsigned int texture = job.texture;
-        _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(),
-                                   [texture](const UploadJob& each)
-                                   { return each.texture == texture; }),
-                    _jobs.end());
+        if (newest[texture] != &job)
+            continue;
         if (_build && _build->job.texture == texture)
         {
             glDeleteTextures(1, &_build->texture.name);
@@ -374,6 +377,9 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     if (!_buffer)
         _gl->glGenBuffers(1, &_buffer);
     _gl->glBindBuffer(UnpackBuffer, _buffer);
+    const double ordered = threadMilliseconds();
+    _pace.took(0, ordered - start); // Says nothing about the rate.
+    start = ordered;
     while (_build || !_jobs.empty())
     {
         const std::uint64_t piece = pace.piece();

@@ -15,6 +15,7 @@ run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
 set(ENV{OSG_LIBRARY_PATH} ${SCRATCH}/prefix/${LIBDIR})
 run(${SCRATCH}/build/consumer ${SCRATCH}/scene.osgt)
 run(${SCRATCH}/build/consumer_labels ${SCRATCH}/labels.osgt)
+run(${SCRATCH}/build/consumer_paged ${SCRATCH}/paged.osgt)
 # No installed file may point back into the build tree.
 file(GLOB_RECURSE configs ${SCRATCH}/prefix/*.cmake)
 foreach(config IN LISTS configs)

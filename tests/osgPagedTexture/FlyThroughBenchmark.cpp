@@ -2,17 +2,20 @@
 // A flight through a model with more texture than memory, in real time, for several ways to load
 // it: frame times, memory, and the work of uploads.
 //
-//   osgPagedTexture.FlyThroughBenchmark --path FILE [--size WxH] [--seconds S] [--cache DIR]
-//       [--csv file] model...
+//   osgPagedTexture.FlyThroughBenchmark --path FILE [--size WxH] [--seconds S] [--stand]
+//       [--rounds N] [--cache DIR] [--csv file] model...
 //
 // A model is a file as osgviewer takes it, "town.osgb" or "town.osgb.(gpu=64).pagedtexture", or
 // "untextured:town.osgb". Each flies in a process of its own, one after the other. Paths are made
 // by osgphotocity --path, or recorded by osgviewer with key z. --cache: folder of encoded textures,
-// for XDG_CACHE_HOME; empty ones show a first start.
+// for XDG_CACHE_HOME; empty ones show a first start. --stand: stays at the start of the path, so
+// that rest_s is what full quality takes. --rounds: each model so often, in turns; medians.
 //
 // Columns: seconds to load, to the first picture, and from the end of the path until textures are
-// at rest; frames and their times in ms; CPU time of uploads a frame in ms; MiB of textures on the
-// GPU as counted, of the process, both at most; MiB read from files, and files decoded.
+// at rest; frames and their times in ms; CPU time of uploads a frame in ms; of the texels that
+// frames need, those that are not there, in percent: the mean, and what 99 % of the frames do not
+// exceed; MiB of textures on the GPU as counted, of the process, both at most; MiB read from files,
+// and files decoded; CPU time of looking ahead, ms a frame.
 #include <support/FrameTimer.h>
 
 #include <osgPagedTexture/PagedScene.h>
@@ -28,6 +31,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
+#include <numeric>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -39,6 +44,7 @@ struct Task
 {
     std::string model, path, cache;
     double seconds = 0.0; ///< Of the flight at most; 0: all of it.
+    bool stands = false;
     BenchmarkOptions options;
 };
 
@@ -57,6 +63,12 @@ double quantile(std::vector<double> values, double share)
         return 0.0;
     std::sort(values.begin(), values.end());
     return values[std::min(values.size() - 1, std::size_t(share * double(values.size())))];
+}
+
+double mean(const std::vector<double>& values)
+{
+    return values.empty() ? 0.0
+                          : std::accumulate(values.begin(), values.end(), 0.0) / values.size();
 }
 
 /// The number behind `name` in a file of /proc, 0 where there is none.
@@ -110,9 +122,11 @@ public:
         const double first = secondsSince(start);
         _frames.clear();
         _uploads.clear();
+        _missing.clear();
         const osg::Timer_t takeOff = osg::Timer::instance()->tick();
-        const double end =
-            _task.seconds > 0.0 ? std::min(_task.seconds, path->getPeriod()) : path->getPeriod();
+        const double end = _task.stands          ? 0.0
+                           : _task.seconds > 0.0 ? std::min(_task.seconds, path->getPeriod())
+                                                 : path->getPeriod();
         for (double time = 0.0; time < end; time = secondsSince(takeOff))
             show(*path, time);
         const osg::Timer_t landing = osg::Timer::instance()->tick();
@@ -120,7 +134,8 @@ public:
         while (_scene && !_scene->isAtRest() && secondsSince(landing) < 120.0)
             show(*path, end);
         const double rest = secondsSince(landing);
-        _frames.resize(frames);
+        _frames.resize(_task.stands ? _frames.size() : frames);
+        _missing.resize(std::min(_missing.size(), frames));
         return {loaded,
                 first,
                 rest,
@@ -132,10 +147,13 @@ public:
                 quantile(_uploads, 0.99),
                 quantile(_uploads, 0.999),
                 quantile(_uploads, 1.0),
+                100.0 * mean(_missing),
+                100.0 * quantile(_missing, 0.99),
                 gpuMiB(),
                 procNumber("/proc/self/status", "VmHWM") / 1024.0,
                 procNumber("/proc/self/io", "rchar") / (1 << 20),
-                _scene ? double(_scene->getStatistics().loader.filesDecoded) : 0.0};
+                _scene ? double(_scene->getStatistics().loader.filesDecoded) : 0.0,
+                mean(_ahead)};
     }
 
 private:
@@ -170,15 +188,19 @@ private:
         const osg::Timer_t start = osg::Timer::instance()->tick();
         _viewer.render(_model, camera, _task.options.width, _task.options.height);
         _frames.push_back(1e3 * secondsSince(start));
-        if (_scene)
-            _uploads.push_back(_scene->getStatistics().upload.lastMilliseconds);
+        if (!_scene)
+            return;
+        const osgPagedTexture::PagerStatistics statistics = _scene->getStatistics();
+        _uploads.push_back(statistics.upload.lastMilliseconds);
+        _missing.push_back(statistics.missingTexels / std::max(1.0, statistics.neededTexels));
+        _ahead.push_back(statistics.prefetchMilliseconds);
     }
 
     const Task& _task;
     support::HeadlessViewer _viewer;
     osg::ref_ptr<osg::Node> _model;
     osgPagedTexture::PagedScene* _scene = nullptr;
-    std::vector<double> _frames, _uploads;
+    std::vector<double> _frames, _uploads, _missing, _ahead;
 };
 
 /// In a process of its own, so that memory is that of this way alone.
@@ -219,19 +241,31 @@ int main(int argc, char** argv)
     arguments.read("--path", task.path);
     arguments.read("--cache", task.cache);
     arguments.read("--seconds", task.seconds);
+    task.stands = arguments.read("--stand");
+    task.options.rounds = 1;
     if (!task.options.read(arguments))
         return 2;
     Table table({"way", "load_s", "first_s", "rest_s", "frames", "p50_ms", "p99_ms", "max_ms",
-                 "upload_p50", "upload_p99", "upload_p999", "upload_max", "gpu_MiB", "process_MiB",
-                 "read_MiB", "decoded"});
+                 "upload_p50", "upload_p99", "upload_p999", "upload_max", "missing_%",
+                 "missing_p99", "gpu_MiB", "process_MiB", "read_MiB", "decoded", "ahead_ms"});
     int failures = 0;
-    for (int i = 1; i < arguments.argc(); ++i)
+    std::map<int, std::vector<std::vector<double>>> columns; // Of each model, values of the rounds.
+    for (int round = 0; round < task.options.rounds; ++round)
+        for (int i = 1; i < arguments.argc(); ++i)
+        {
+            task.model = arguments[i];
+            const std::vector<double> row = flyApart(task);
+            failures += row.empty();
+            columns[i].resize(row.size());
+            for (std::size_t c = 0; c < row.size(); ++c)
+                columns[i][c].push_back(row[c]);
+        }
+    for (const auto& [i, values] : columns)
     {
-        task.model = arguments[i];
-        const std::vector<double> row = flyApart(task);
-        failures += row.empty();
+        std::vector<double> row;
+        addMedians(row, values);
         if (!row.empty())
-            table.add(osgDB::getSimpleFileName(task.model), row);
+            table.add(osgDB::getSimpleFileName(arguments[i]), row);
     }
     return table.report(task.options.csv) || failures;
 }

@@ -58,24 +58,24 @@ TEST_F(PagedPictureGLTest, sidesThatAreNoPowersOfTwoShowTheSameToo)
     float x = -5.0f;
     for (const auto& size : sizes)
     {
-        const std::string name = "p" + std::to_string(size[0]) + ".png";
+        const std::string name =
+            "p" + std::to_string(size[0]) + "x" + std::to_string(size[1]) + ".png";
         paged::writePicture(_folder, name, size[0], size[1]);
         model->addChild(
             paged::makeSquare({x, 30.0f, 0.0f}, paged::makeTexture(_folder.file(name))));
         x += 2.5f;
     }
-    osgPagedTexture::PagedSettings settings;
-    settings.cache = "off";
-    settings.compression = osgPagedTexture::Compression::None;
-    const osg::ref_ptr<PagedScene> whole = osgPagedTexture::install(
-        *static_cast<osg::Group*>(model->clone(osg::CopyOp::DEEP_COPY_ALL)), settings);
-    settings.gpuMegabytes = 0.5;
-    const osg::ref_ptr<PagedScene> parts = osgPagedTexture::install(
-        *static_cast<osg::Group*>(model->clone(osg::CopyOp::DEEP_COPY_ALL)), settings);
+    const std::string file = _folder.file("sizes.osgt");
+    ASSERT_TRUE(osgDB::writeNodeFile(*model, file));
+    const std::string cache = "compression=none,cache=" + _folder.file("cache");
+    const osg::ref_ptr<PagedScene> whole = paged::read(file, cache);
+    const osg::ref_ptr<PagedScene> parts = paged::read(file, cache + ",gpu=0.5");
+    ASSERT_EQ(paged::countOf(*parts, "textures"), 5.0);
     const auto expected = paged::settle(_viewer, *whole, paged::lookAlong());
     const auto actual = paged::settle(_viewer, *parts, paged::lookAlong());
     EXPECT_TRUE(Same(actual, expected, "paged.sizes"));
     EXPECT_EQ(paged::countOf(*parts, "levels.missing"), 0.0) << "no proof";
+    EXPECT_LT(paged::countOf(*parts, "gpu.bytes"), paged::countOf(*whole, "gpu.bytes"));
 }
 
 TEST_F(PagedPictureGLTest, inBlocksThePictureAtRestIsTheSameToo)
