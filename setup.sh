@@ -15,8 +15,8 @@ packages=(
     nlohmann-json3-dev libpugixml-dev libcli11-dev libgtest-dev libbenchmark-dev libcoin-dev libembree-dev
     # run time: the viewer, software GL, models, plots, a real X11 window for the tests
     openscenegraph libgl1-mesa-dri libegl-mesa0 libosmesa6 inventor-data fonts-dejavu-core gnuplot-nox xvfb xauth
-    # tests: a second GLSL compiler, real projects of ShaderDesigner
-    glslang-tools meshlab
+    # tests: a second GLSL compiler, real projects of ShaderDesigner, the shaders of OSG's examples
+    glslang-tools meshlab openscenegraph-examples
     # sweeps: other encoders of texture blocks
     libstb-dev libsquish-dev libmagickwand-6.q16-dev
     # tests: a peer that writes Deep Zoom

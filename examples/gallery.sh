@@ -37,7 +37,7 @@ done
 
 # Scenes that name the models that they show.
 mkdir -p "$scenes"
-cp examples/scenes/*.iv examples/scenes/*.wrl examples/scenes/*.osgt examples/scenes/*.csv "$scenes"
+cp examples/scenes/*.iv examples/scenes/*.wrl examples/scenes/*.osgt examples/scenes/*.csv examples/scenes/*.glsl "$scenes"
 ln -sfn "$models" "$scenes/models"
 for refinery in "3000 refinery.osgb" "3000 refinery.iv" "60000 refinery60000.osgb"; do
     OSG_LIBRARY_PATH=build/lib build/bin/osgrefinery --objects "${refinery% *}" "$scenes/${refinery#* }" >"$out/osgrefinery.log"
@@ -52,6 +52,7 @@ done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"
 status=0
 build/bin/osgrender --samples 4 --clear-color 0.2,0.22,0.26 -D MODELS=$models -D FORMATS=$formats -D SCENES=$scenes -D PICTURES=docs/pictures \
+    -D SHADERS=/usr/share/meshlab/shaders \
     -D LIT="$lit" -D SHADOWED="$shadowed" -D MASK="$mask" -D VOLUMES="$volumes" -D MAPS="$maps" \
     -D OUT=$out "${scripts[@]}" --html "$out/index.html" >"$out/summary.log" || status=$?
 summary=$(tail -n 1 "$out/summary.log")

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/KeyPoints.h>
 
+#include <chrono>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 namespace osgMultiRender
@@ -41,6 +44,13 @@ std::vector<KeySegment> join(const std::vector<glm::dvec3>& points, KeyMode mode
 
 } // namespace
 
+struct KeyPoints::Making
+{
+    std::mutex mutex;
+    std::shared_ptr<const KeyCells> cells;
+    std::future<std::shared_ptr<const KeyCells>> future;
+};
+
 KeyPoints::KeyPoints(const std::vector<glm::dvec3>& positions, KeyMode mode) : _mode(mode)
 {
     std::vector<glm::dvec3> points;
@@ -51,6 +61,25 @@ KeyPoints::KeyPoints(const std::vector<glm::dvec3>& positions, KeyMode mode) : _
     _count = points.size();
     _leftOut = positions.size() - points.size();
     _tree = KeyTree(join(points, mode));
+    const std::size_t segments = _tree.getSegments().size();
+    if (segments > KeyTree::LeafSize && segments <= KeyCells::MaxSegments)
+        _making = std::make_shared<Making>();
+}
+
+std::shared_ptr<const KeyCells> KeyPoints::findCells(bool waits) const
+{
+    if (!_making)
+        return nullptr;
+    std::lock_guard<std::mutex> lock(_making->mutex);
+    if (_making->cells)
+        return _making->cells;
+    auto& future = _making->future;
+    if (!future.valid())
+        future = std::async(std::launch::async, [segments = _tree.getSegments()]
+                            { return std::make_shared<const KeyCells>(segments); });
+    if (waits || future.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+        _making->cells = future.get();
+    return _making->cells;
 }
 
 double KeyPoints::distance(const glm::dvec3& position) const

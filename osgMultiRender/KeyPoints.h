@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgMultiRender/KeyCells.h>
 #include <osgMultiRender/KeyTree.h>
+
+#include <memory>
 
 namespace osgMultiRender
 {
@@ -41,11 +44,20 @@ public:
     std::size_t getNumLeftOut() const { return _leftOut; } ///< Those that count as absent.
     const KeyTree& getTree() const { return _tree; }
 
+    /// The cells of these points, which copies share. They are begun in a thread of their own when
+    /// they are first asked for; null until they are there, unless `waits`, and for points that
+    /// have none. Callable from any thread.
+    std::shared_ptr<const KeyCells> findCells(bool waits = false) const;
+    /// The same for copies, another one for all other points.
+    std::shared_ptr<const void> getIdentity() const { return _making; }
+
 private:
     KeyMode _mode = KeyMode::Points;
     std::size_t _count = 0;
     std::size_t _leftOut = 0;
     KeyTree _tree;
+    struct Making;
+    std::shared_ptr<Making> _making; ///< Null where one leaf of the tree is all.
 };
 
 } // namespace osgMultiRender

@@ -132,6 +132,10 @@ private:
 MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
                               std::vector<MergedFile>& files);
 
+/// The condition under which the rendering's alpha test lets a fragment pass, of an expression for
+/// its alpha; empty where all do.
+std::string alphaTestOf(const RenderingState& state, const std::string& alpha);
+
 /// Chooses merged names for all that is the rendering's own.
 void nameMergeProgram(MergeProgram& program, MergeNames& names, int version);
 

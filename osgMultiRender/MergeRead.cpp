@@ -505,6 +505,7 @@ MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
     program.rendering = &rendering;
     program.name = identifierOf(rendering.name);
     Reader(program, files).run();
+    program.discards = program.discards || !alphaTestOf(rendering.state, "a").empty();
     return program;
 }
 

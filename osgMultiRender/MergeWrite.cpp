@@ -3,6 +3,8 @@
 #include <osgMultiRender/MergeProgram.h>
 
 #include <algorithm>
+#include <locale>
+#include <sstream>
 
 namespace osgMultiRender
 {
@@ -290,6 +292,12 @@ private:
             _text += "        " + call;
         }
         _text += _discards ? "        osgmr_any = true;\n" : "";
+        const std::string passes = alphaTestOf(program.rendering->state, "osgmr_c.a");
+        if (!passes.empty())
+        {
+            _text += "        " + program.discarded + " = " + program.discarded + " || !(" +
+                     passes + ");\n";
+        }
         const std::string indent = program.discards ? "            " : "        ";
         _text += program.discards ? "        if (!" + program.discarded + ")\n        {\n" : "";
         _text += indent + "osgmr_sum += osgmr_w * osgmr_c.rgb;\n";
@@ -360,6 +368,22 @@ private:
 };
 
 } // namespace
+
+std::string alphaTestOf(const RenderingState& state, const std::string& alpha)
+{
+    constexpr unsigned int never = 0x0200; // the functions follow as OpenGL numbers them
+    static const char* const compare[] = {"", " < ", " == ", " <= ", " > ", " != ", " >= ", ""};
+    const unsigned int function = state.alphaFunction - never;
+    if (!state.alphaTest || function >= 7) // GL_ALWAYS, or none
+    {
+        return "";
+    }
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << std::showpoint << "clamp(" << alpha << ", 0.0, 1.0)" << compare[function]
+         << state.alphaReference;
+    return function == 0 ? "false" : text.str();
+}
 
 void writeMerged(const std::vector<MergeProgram*>& programs,
                  const std::vector<MergeVector>& vectors, const MergeOptions& options,

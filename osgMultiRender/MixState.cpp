@@ -32,24 +32,29 @@ void setInts(osg::Uniform& uniform, const glm::ivec4& values)
 } // namespace
 
 MixState::MixState(unsigned int unit)
-    : _texels(new osg::Vec4uiArray(1)),
+    : _texels(new osg::Vec4uiArray(1)), _cells(new osg::Vec4iArray(1)),
       _frame(new osg::Uniform(osg::Uniform::FLOAT_MAT3, "osgmr_mixFrame")),
       _keys(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixKeys")),
       _rules(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixRules")),
       _background(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgmr_mixBackground")),
+      _roots(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgmr_mixRoots", 2)),
+      _grids(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixCells")),
       _stateSet(new osg::StateSet)
 {
     const osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(_texels);
     // OSG leaves the buffer bound when it has sent changes. As GL_ARRAY_BUFFER it would turn the
     // addresses of the next drawable's arrays into offsets.
     _texels->getBufferObject()->setTarget(GL_TEXTURE_BUFFER_ARB);
+    // Of one buffer OSG sends only the part that has changed: the cells stay while the eye moves.
+    _cells->setBufferObject(_texels->getBufferObject());
     texture->setInternalFormat(GL_RGBA32UI_EXT);
     _stateSet->setDataVariance(osg::Object::DYNAMIC);
     // PROTECTED: the one of a kit around this one may be above.
     _stateSet->setTextureAttribute(unit, texture,
                                    osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
     _stateSet->addUniform(new osg::Uniform("osgmr_mix", static_cast<int>(unit)));
-    for (osg::Uniform* uniform : {_frame.get(), _keys.get(), _rules.get(), _background.get()})
+    for (osg::Uniform* uniform :
+         {_frame.get(), _keys.get(), _rules.get(), _background.get(), _roots.get(), _grids.get()})
         _stateSet->addUniform(uniform);
     update(KeyPoints(), MixWeights(), osg::Matrixd());
 }
@@ -73,6 +78,22 @@ void MixState::update(const KeyPoints& points, const MixWeights& weights,
         std::memcpy(static_cast<void*>(&_texels->front()), _values.texels.data(), bytes);
         _texels->dirty();
     }
+    if (_values.cells && _sentCells != _values.cells)
+    {
+        const std::vector<std::int32_t>& cells = _values.cells->getCells();
+        _cells->resize((cells.size() + 3) / 4);
+        std::memcpy(static_cast<void*>(&_cells->front()), cells.data(), 4 * cells.size());
+        _cells->dirty();
+        _texels->dirty(); // what the texture looks at
+        _texels->dirty(); // what the texture looks at
+        _sentCells = _values.cells;
+    }
+    for (unsigned int i = 0; i < 2; ++i)
+    {
+        const glm::vec4& root = _values.roots[i];
+        _roots->setElement(i, osg::Vec4(root.x, root.y, root.z, root.w));
+    }
+    setInts(*_grids, _values.grids);
     osg::Matrix3 frame;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)

@@ -140,6 +140,23 @@ void MixTexels::addNodes(const KeyTree& tree, const glm::dvec3& eye)
     }
 }
 
+void MixTexels::addCells(const KeyPoints& points, const glm::dvec3& eye)
+{
+    const std::shared_ptr<const void> given = points.getIdentity();
+    cells = given && given == _given ? points.findCells() : nullptr;
+    _given = given;
+    grids = glm::ivec4(0);
+    if (!cells || points.getTree().getSegments().size() <= LinearSize)
+        return;
+    grids.x = static_cast<int>(texels.size());
+    for (std::size_t i = 0; i < roots.size(); ++i)
+    {
+        const KeyCells::Root& root = cells->getRoots()[i];
+        roots[i] = glm::vec4(root.low - eye, 1.0 / root.size);
+        grids[1 + static_cast<int>(i)] = root.first;
+    }
+}
+
 void MixTexels::set(const KeyPoints& points, const MixWeights& weights, const glm::dmat4& keysToEye)
 {
     // Texel 0 is no place for anything: address 0 says none.
@@ -156,10 +173,12 @@ void MixTexels::set(const KeyPoints& points, const MixWeights& weights, const gl
     {
         frame = glm::mat3(1.0f);
         keys = glm::ivec4(0, 0, 0, 1);
+        grids = glm::ivec4(0);
         return;
     }
     addSegments(points, eye);
     addNodes(points.getTree(), eye);
+    addCells(points, eye);
 }
 
 } // namespace osgMultiRender

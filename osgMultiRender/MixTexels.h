@@ -24,6 +24,13 @@ struct OSGMULTIRENDER_EXPORT MixTexels
     /// Uniform osgmr_mixRules: number of renderings; base or -1; whether to normalise; 0.
     glm::ivec4 rules{0, -1, 0, 0};
     glm::vec4 background{0.0f}; ///< Uniform osgmr_mixBackground.
+    /// Behind the texels, four integers each; null: there are none. Points that are given again
+    /// have them, so that none are made for points that move.
+    std::shared_ptr<const KeyCells> cells;
+    /// Uniform osgmr_mixRoots: the low corners of the cells' grids, and 1 / their sizes.
+    std::array<glm::vec4, 2> roots{};
+    /// Uniform osgmr_mixCells: their first texel or 0; the first cells of both grids; 0.
+    glm::ivec4 grids{0};
 
     /// `keysToEye` is affine: the view matrix, after the matrix of the node that the key points
     /// are attached to. One that cannot be inverted, or is not finite, leaves no key points: every
@@ -37,6 +44,9 @@ private:
     void addSegments(const KeyPoints& points, const glm::dvec3& eye);
     void addNodes(const KeyTree& tree, const glm::dvec3& eye);
     void addNode(const KeyTree::Node& node, const glm::dvec3& eye);
+    void addCells(const KeyPoints& points, const glm::dvec3& eye);
+
+    std::shared_ptr<const void> _given; ///< The points of the last time.
 };
 
 } // namespace osgMultiRender

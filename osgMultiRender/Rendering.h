@@ -67,7 +67,10 @@ struct RenderingLight
     std::array<float, 3> attenuation = {1.0f, 0.0f, 0.0f}; ///< Constant, linear, quadratic.
 };
 
-/// The fixed state that a rendering was made under; it counts where the rendering is shown alone.
+/// The fixed state that a rendering was made under. A mix takes what is the program's own: two
+/// sides, flat shading, and the alpha test, which takes the rendering's weight away. All else is
+/// the model's: materials, lights and the ambient light, as for a rendering without state; culling,
+/// polygon modes, blending and depth, which are of all that a drawable shows.
 struct RenderingState
 {
     bool given = false; ///< False: the description holds no state.

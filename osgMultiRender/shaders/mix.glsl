@@ -14,6 +14,8 @@ uniform ivec4 osgmr_mixKeys; // texel of the tree's root or 0; of the first segm
                              // texels a segment: 1 for points, 2 for lines
 uniform ivec4 osgmr_mixRules; // number of renderings; base or -1; whether to normalise
 uniform vec4 osgmr_mixBackground;
+uniform vec4 osgmr_mixRoots[2]; // low corners of the cells' grids; 1 / their sizes
+uniform ivec4 osgmr_mixCells;   // texel of the cells or 0; the first cells of both grids
 
 const float osgmr_noDistance = 1e30; // no key points, or a position that is not a number
 const int osgmr_mixLeafSize = 4;
@@ -120,12 +122,52 @@ float osgmr_nearestInTree(vec3 at, float nearest)
     }
 }
 
+int osgmr_cell(int index)
+{
+    return int(texelFetch(osgmr_mix, osgmr_mixCells.x + (index >> 2))[index & 3]);
+}
+
+// To the segments that the cell of the position lists: see KeyCells. Less than 0 where none does.
+float osgmr_nearestInCell(vec3 at)
+{
+    int cell = 0;
+    ivec3 place = ivec3(0);
+    for (int i = 1; i >= 0; --i)
+    {
+        vec3 share = (at - osgmr_mixRoots[i].xyz) * osgmr_mixRoots[i].w;
+        if (all(greaterThanEqual(share, vec3(0.0))) && all(lessThan(share, vec3(1.0))))
+        {
+            place = ivec3(share * 65536.0);
+            ivec3 coarse = place >> 12;
+            cell = osgmr_mixCells[1 + i] + (coarse.z * 16 + coarse.y) * 16 + coarse.x;
+        }
+    }
+    if (cell == 0)
+        return -1.0;
+    cell = osgmr_cell(cell);
+    for (int shift = 11; cell > 0; --shift)
+    {
+        ivec3 part = (place >> shift) & 1;
+        cell = osgmr_cell(cell + part.x + 2 * part.y + 4 * part.z);
+    }
+    if (cell == 0)
+        return -1.0;
+    int first = (-1 - cell) >> 6;
+    int end = first + ((-1 - cell) & 63) + 1;
+    float nearest = 3e38;
+    for (int i = first; i < end; ++i)
+        nearest = osgmr_nearestOf(osgmr_mixKeys.y + osgmr_cell(i) * osgmr_mixKeys.w, 1, at, nearest);
+    return nearest;
+}
+
 // From a position in eye space, in units of the key points.
 float osgmr_distance(vec3 eyePosition)
 {
     vec3 at = osgmr_mixFrame * eyePosition;
     const float none = 3e38;
-    float nearest = osgmr_mixKeys.x > 0
+    float nearest = osgmr_mixCells.x > 0 ? osgmr_nearestInCell(at) : -1.0;
+    if (nearest < 0.0)
+        nearest = osgmr_mixKeys.x > 0
                         ? osgmr_nearestInTree(at, none)
                         : osgmr_nearestOf(osgmr_mixKeys.y, osgmr_mixKeys.z, at, none);
     return nearest < none ? sqrt(nearest) : osgmr_noDistance;

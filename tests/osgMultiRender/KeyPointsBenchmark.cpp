@@ -65,7 +65,9 @@ Candidate makeCandidate(const std::string& name, const KeyPoints& keys, const os
     program->addShader(
         new osg::Shader(osg::Shader::FRAGMENT, head + MixState::getSource() + Fragment));
     const osg::ref_ptr<MixState> state = new MixState(5);
-    state->update(keys, MixWeights({{0, 0, 1, 2}}), osg::Matrixd());
+    keys.findCells(true);
+    for (int frame = 0; frame < 2; ++frame) // cells are for points that stay
+        state->update(keys, MixWeights({{0, 0, 1, 2}}), osg::Matrixd());
     state->getStateSet()->setAttribute(program);
     state->getStateSet()->addUniform(new osg::Uniform("size", size));
     candidate.quad->setStateSet(state->getStateSet());

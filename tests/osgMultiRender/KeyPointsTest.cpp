@@ -92,6 +92,77 @@ TEST(KeyPoints, treeEqualsBruteForceFor10000)
         }
 }
 
+TEST(KeyPoints, cellsTellTheDistanceToTheNearestOfAll)
+{
+    std::mt19937 random(4);
+    for (const std::size_t count : {5, 17, 100, 1000})
+        for (const KeySet& set : makeKeySets(count, 5))
+            for (const KeyMode mode : {KeyMode::Points, KeyMode::PolylineLoop})
+            {
+                const bool isEven = set.name == "random" || set.name == "far";
+                if (count == 1000 && !isEven) // what is as far from many takes a second
+                    continue;
+                SCOPED_TRACE(set.name + " " + std::to_string(count));
+                const KeyPoints keys(set.points, mode);
+                const auto cells = keys.findCells(true);
+                if (keys.getTree().getSegments().size() <= KeyTree::LeafSize)
+                {
+                    ASSERT_EQ(cells, nullptr);
+                    continue;
+                }
+                int told = 0;
+                for (int i = 0; i < 400; ++i)
+                {
+                    const glm::dvec3 place = set.place(random);
+                    const std::optional<double> distance = cells->distance(place);
+                    told += distance.has_value();
+                    // Candidates are left out by planes in double precision.
+                    if (distance)
+                        ASSERT_NEAR(*distance, keys.distance(place),
+                                    1e-14 * (*distance + glm::length(place)));
+                }
+                if (isEven)
+                {
+                    EXPECT_EQ(told, 400);
+                }
+            }
+}
+
+TEST(KeyPoints, fewSegmentsAreListedInACell)
+{
+    const KeyPoints keys(makeKeySets(1000, 5)[0].points);
+    const osgMultiRender::KeyCells& cells = *keys.findCells(true);
+    const osgMultiRender::KeyCells::Root& root = cells.getRoots()[0];
+    std::mt19937 random(9);
+    double sum = 0.0;
+    for (int i = 0; i < 1000; ++i)
+    {
+        const glm::dvec3 share = 0.5 + randomIn(random, 0.5);
+        const glm::ivec3 place(share * 65535.0);
+        std::int32_t cell = cells.getCells()[std::size_t(
+            root.first + ((place.z >> 12) * 16 + (place.y >> 12)) * 16 + (place.x >> 12))];
+        for (int shift = 11; cell > 0; --shift)
+        {
+            const glm::ivec3 part = place >> shift & 1;
+            cell = cells.getCells()[std::size_t(cell + part.x + 2 * part.y + 4 * part.z)];
+        }
+        ASSERT_LT(cell, 0);
+        sum += 1 + (-1 - cell) % 64;
+    }
+    EXPECT_LT(sum / 1000.0, 16.0); // 8 here
+}
+
+TEST(KeyPoints, copiesShareTheirCellsAndOthersDoNot)
+{
+    const std::vector<glm::dvec3> points = makeKeySets(40, 5)[0].points;
+    const KeyPoints keys(points), copy = keys, other(points);
+    const auto cells = keys.findCells(true);
+    EXPECT_EQ(copy.findCells(), cells);
+    EXPECT_EQ(keys.getIdentity(), copy.getIdentity());
+    EXPECT_NE(keys.getIdentity(), other.getIdentity());
+    EXPECT_EQ(KeyPoints().findCells(true), nullptr);
+}
+
 TEST(KeyPoints, handComputedDistances)
 {
     const std::vector<glm::dvec3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 3, 0}};

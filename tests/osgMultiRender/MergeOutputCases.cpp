@@ -21,6 +21,17 @@ void main() { a = vec4(1.0); b = vec4(uv, 0.0, 1.0); })",
     return one;
 }
 
+/// Its project's state has an alpha test.
+Rendering alphaTested(const char* name, unsigned int function, float reference)
+{
+    Rendering one =
+        mergeCase(name, Head + "void main() { gl_FragColor = vec4(uv, 0.25, fract(uv.x * 3.0)); }");
+    one.state.given = one.state.alphaTest = true;
+    one.state.alphaFunction = function;
+    one.state.alphaReference = reference;
+    return one;
+}
+
 } // namespace
 
 std::vector<Rendering> outputCases()
@@ -111,6 +122,10 @@ void main()
     for (;;) if (find(0.0)) break;
     gl_FragColor = vec4(x, uv, 1.0);
 })"),
+        alphaTested("alphaTested", 0x0204, 0.5f),      // GL_GREATER
+        alphaTested("alphaTestedLess", 0x0201, 0.25f), // GL_LESS
+        alphaTested("alphaTestedNever", 0x0200, 0.0f), // GL_NEVER
+        alphaTested("alphaTestedAlways", 0x0207, 0.5f),
         mergeCase("alwaysDiscards", Head + "void main() { gl_FragColor = vec4(1.0); discard; }"),
         mergeCase("writesDepth", Head + "void main() { gl_FragColor = vec4(uv, 0.0, 1.0); "
                                         "gl_FragDepth = gl_FragCoord.z * 0.5; }"),

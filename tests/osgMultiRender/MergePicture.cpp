@@ -228,7 +228,11 @@ MergePicture MergeStudio::drawAlone(const Rendering& rendering)
         glGetActiveAttrib(program.id(), GLuint(i), sizeof name, nullptr, &size, &type, name);
         attributes.emplace_back(glGetAttribLocation(program.id(), name), hashOf(name));
     }
+    const RenderingState& state = rendering.state;
+    (state.alphaTest ? glEnable : glDisable)(GL_ALPHA_TEST);
+    glAlphaFunc(state.alphaFunction, state.alphaReference);
     picture = draw(program, attributes);
+    glDisable(GL_ALPHA_TEST);
     picture.log = program.log();
     return picture;
 }

@@ -117,6 +117,18 @@ protected:
         }
         _twin.setPositions(positions);
         _twin.state->update(keys, weights, view);
+        ASSERT_NO_FATAL_FAILURE(comparePicture(keys, weights, inverse, positions, set.radius));
+        keys.findCells(true);
+        _twin.state->update(keys, weights, view); // again: with cells
+        ASSERT_EQ(_twin.state->getTexels().grids.x > 0,
+                  keys.getTree().getSegments().size() > MixTexels::LinearSize);
+        ASSERT_NO_FATAL_FAILURE(comparePicture(keys, weights, inverse, positions, set.radius));
+    }
+
+    void comparePicture(const KeyPoints& keys, const MixWeights& weights,
+                        const osg::Matrixd& inverse, const std::vector<glm::vec3>& positions,
+                        double radius)
+    {
         const osg::ref_ptr<osg::Image> picture = draw();
         ASSERT_TRUE(picture);
         for (std::size_t i = 0; i < positions.size(); ++i)
@@ -125,8 +137,7 @@ protected:
             const osg::Vec3d world = osg::Vec3d(p.x, p.y, p.z) * inverse;
             const double distance = keys.distance({world.x(), world.y(), world.z()});
             const auto* const pixel = reinterpret_cast<const float*>(picture->data()) + 4 * i;
-            ASSERT_NO_FATAL_FAILURE(
-                comparePixel(pixel, weights, distance, glm::length(p), set.radius))
+            ASSERT_NO_FATAL_FAILURE(comparePixel(pixel, weights, distance, glm::length(p), radius))
                 << "fragment " << i;
         }
     }
@@ -177,6 +188,24 @@ TEST_F(MixGLTest, equalsTheReferenceForAllSetsModesViewsAndRules)
                 ASSERT_NO_FATAL_FAILURE(compare(set, mode, kind++));
             }
     std::printf("worst error of a distance: %.2g of distance + position\n", _worst);
+}
+
+TEST_F(MixGLTest, fragmentsAskTheCellsOfPointsThatStay)
+{
+    const KeySet set = makeKeySets(1000, 11)[0];
+    const KeyPoints keys(set.points);
+    const MixWeights weights(Ranges, makeRules(0));
+    std::vector<glm::vec3> positions;
+    for (int i = 0; i < Size * Size; ++i)
+        positions.emplace_back(set.place(_random));
+    _twin.setPositions(positions);
+    keys.findCells(true);
+    for (int frame = 0; frame < 2; ++frame)
+        _twin.state->update(keys, weights, osg::Matrixd());
+    // Without the tree, and without segments to look at one by one.
+    const glm::ivec4 there = _twin.state->getTexels().keys;
+    _twin.state->getStateSet()->getUniform("osgmr_mixKeys")->set(0, there.y, 0, there.w);
+    ASSERT_NO_FATAL_FAILURE(comparePicture(keys, weights, osg::Matrixd(), positions, set.radius));
 }
 
 TEST_F(MixGLTest, aPositionThatIsNotANumberIsInfinitelyFar)

@@ -57,7 +57,7 @@ bool MixTruth::hasSurface(int x, int y) const
 }
 
 MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoints& points,
-                                       const MixWeights& weights) const
+                                       const MixWeights& weights, const glm::dvec4* behind) const
 {
     Difference result;
     double squares = 0.0;
@@ -78,7 +78,9 @@ MixTruth::Difference MixTruth::compare(const osg::Image& picture, const KeyPoint
             const std::vector<double> each = weights.at(distance);
             result.mixed += std::count_if(each.begin(), each.end(),
                                           [](double weight) { return weight > 0.0; }) > 1;
-            const glm::dvec4 expected = weights.mix(distance, colors);
+            glm::dvec4 expected = weights.mix(distance, colors);
+            if (behind)
+                expected += (1.0 - expected.a) * *behind;
             const auto* actual = reinterpret_cast<const float*>(picture.data(x, y));
             double worst = 0.0;
             for (int i = 0; i < 4; ++i)

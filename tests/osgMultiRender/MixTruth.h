@@ -35,8 +35,10 @@ public:
         int mixed = 0;      ///< Of these, with more than one weight above 0.
         int over = 0;       ///< Of these, off by more than 1/255.
     };
+    /// `behind`: what a transparent mix is blended over; null for one that is not.
     Difference compare(const osg::Image& picture, const osgMultiRender::KeyPoints& points,
-                       const osgMultiRender::MixWeights& weights) const;
+                       const osgMultiRender::MixWeights& weights,
+                       const glm::dvec4* behind = nullptr) const;
 
 private:
     osg::ref_ptr<osg::Image> draw(osg::StateSet* stateSet);

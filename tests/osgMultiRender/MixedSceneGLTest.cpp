@@ -94,6 +94,30 @@ TEST_F(MixedSceneGLTest, keyPointsMoveWithTheNodeThatTheyAreAttachedTo)
     expectTruth("mixedAttached");
 }
 
+TEST_F(MixedSceneGLTest, aTransparentMixEqualsTheBlendOverWhatLiesBehind)
+{
+    _model = makeImageQuad(*_image); // one layer, so that only the background is behind
+    add("textured", {0.0, 0.0, 0.2, 0.5});
+    add("sepia", {0.4, 0.5, 0.6, 0.9});
+    setKeys({{0.0, 0.0, 0.0}, {0.2, 0.0, 0.0}}, KeyMode::Polyline);
+    _scene->setTransparent(true);
+    MixTruth truth(_viewer, _model, _camera, Size);
+    for (const std::string& rendering : _names)
+        truth.add(makeRenderingState(*findBuiltInRendering(rendering)));
+    const osg::ref_ptr<osg::Image> picture = draw();
+    ASSERT_TRUE(picture);
+    support::writeImage(*picture, "mixedTransparentTwo");
+    const osg::Vec4 clear = support::HeadlessSettings().clearColor;
+    const glm::dvec4 behind(clear.r(), clear.g(), clear.b(), clear.a());
+    const MixWeights weights(_ranges);
+    const MixTruth::Difference difference = truth.compare(*picture, _points, weights, &behind);
+    std::cout << "mixedTransparentTwo: " << difference.covered << " pixels, worst "
+              << difference.worst * 255.0 << "/255\n";
+    EXPECT_GT(difference.covered, 3000);
+    EXPECT_EQ(difference.over, 0);
+    EXPECT_GT(truth.compare(*picture, _points, weights).over, 1000) << "nothing shows through";
+}
+
 TEST_F(MixedSceneGLTest, whatIsMissingShowsWhatLiesBehindWhereItIsTransparent)
 {
     _model = makeImageQuad(*_image); // one layer, so that only the background is behind

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgMultiRender/KeyTree.h>
+
+#include <optional>
+
+namespace osgMultiRender
+{
+
+/// Space around key points in cells that list the segments that can be the nearest one there.
+///
+/// Free of OSG and GL. A fragment finds its cell by its place and looks at a few segments, without
+/// a stack and mostly the same ones as its neighbours. There are two grids of Grid cells an axis:
+/// one around the segments, and one that is some six times as wide. Cells with many candidates are
+/// halved along all axes. What is farther away, or in a cell that would list too many, is not told.
+class OSGMULTIRENDER_EXPORT KeyCells
+{
+public:
+    static constexpr int Grid = 16;
+    static constexpr int Levels = 16; ///< A grid is 2^Levels of the smallest cells wide.
+    static constexpr std::uint32_t MaxCandidates = 64; ///< In a cell.
+    static constexpr std::size_t MaxSegments = std::size_t(1) << 17;
+
+    /// A cube with Grid^3 cells, of which the first is `first`.
+    struct Root
+    {
+        glm::dvec3 low{0.0};
+        double size = 0.0; ///< 0: nothing is in it.
+        std::int32_t first = 0;
+    };
+
+    KeyCells() = default;
+    /// Some 50 ms for 10,000. With more than MaxSegments, or none, nothing is told.
+    explicit KeyCells(const std::vector<KeySegment>& segments);
+
+    /// The distance of the nearest segment of the point's cell; none where that is not told.
+    std::optional<double> distance(const glm::dvec3& point) const;
+
+    const std::array<Root, 2>& getRoots() const { return _roots; } ///< The inner one first.
+    /// Cells, x fastest, and lists. A cell is 0 where nothing is told, the index of the first of
+    /// its eight parts, or -1 - (64 * the index of its list + the number of its candidates - 1).
+    /// Candidates are indices of segments.
+    const std::vector<std::int32_t>& getCells() const { return _cells; }
+
+private:
+    std::vector<KeySegment> _segments;
+    std::array<Root, 2> _roots;
+    std::vector<std::int32_t> _cells;
+};
+
+} // namespace osgMultiRender
