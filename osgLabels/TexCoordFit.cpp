@@ -24,7 +24,7 @@ struct Lengths
     glm::dvec3 middle{0.0};
     glm::dvec3 least{std::numeric_limits<double>::max()};
     glm::dvec3 most{-std::numeric_limits<double>::max()};
-    glm::dvec3 along[2] = {};      ///< What a unit of s and t is in space,
+    glm::dvec3 along[2] = {};    ///< What a unit of s and t is in space,
     double alongSquared[2] = {}; ///< and its square.
     double area = 0.0;
 
@@ -62,8 +62,10 @@ struct Lengths
     /// Whether units of s or t differ by more than some percent.
     bool isBent() const
     {
-        const auto varies = [this](int i)
-        { return alongSquared[i] * area - glm::dot(along[i], along[i]) > 1e-3 * alongSquared[i] * area; };
+        const auto varies = [this](int i) {
+            return alongSquared[i] * area - glm::dot(along[i], along[i]) >
+                   1e-3 * alongSquared[i] * area;
+        };
         return varies(0) || varies(1);
     }
     glm::dvec3 point(unsigned int i) const

@@ -103,8 +103,8 @@ Readings readingsOf(osg::Node* model, const support::CameraSpec& camera, const s
     // Where a bent surface turns away, what is beside a letter may be beside its text.
     Picture plates;
     if (!settings.empty())
-        plates = inkViewer().render(labelled(model, "ink=#00ff00,plate=#00ff00," + settings), camera,
-                                    Wide, High, 2);
+        plates = inkViewer().render(labelled(model, "ink=#00ff00,plate=#00ff00," + settings),
+                                    camera, Wide, High, 2);
     const auto isBeside = [&](int pixel)
     { return plates && at(*plates, pixel) != osg::Vec4(0, 1, 0, 1); };
     // What surrounds a pixel of ink: the first ones without any, beyond an edge that is smoothed
@@ -198,8 +198,7 @@ osg::ref_ptr<osg::Node> arch(const std::function<float(float, float)>& grey)
         }
     osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
     geometry->setVertexArray(points);
-    geometry->addPrimitiveSet(
-        new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, GLsizei(points->size())));
+    geometry->addPrimitiveSet(new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, GLsizei(points->size())));
     return textured(geometry, at, grey);
 }
 
@@ -370,8 +369,8 @@ TEST_F(LabelInk, alongTextureCoordinatesOnBentSurfacesAnObjectHasOneInk)
             const std::string each = std::string("textured.") + name + std::to_string(turn);
             const double angle = turn;
             const Readings found = readingsOf(
-                model, from({3.2 * std::sin(angle), -3.2 * std::cos(angle), 0.8 - 0.4 * turn}), each,
-                "texcoord=0");
+                model, from({3.2 * std::sin(angle), -3.2 * std::cos(angle), 0.8 - 0.4 * turn}),
+                each, "texcoord=0");
             expectOneInk(found, each, 0);
             letters += found.letters;
         }
@@ -386,9 +385,8 @@ TEST_F(LabelInk, whatHidesTheMiddleOfABentSurfaceDoesNotSplitItsInk)
     {
         const osg::ref_ptr<osg::Group> group = new osg::Group;
         group->addChild(arch([](float x, float) { return x; }));
-        group->addChild(
-            unlit(named("", rectangle({-0.5f, -2.0f, -half}, {1.0f, 0, 0}, {0, 0, 2.0f * half},
-                                      {0, 0, 0, 1}))));
+        group->addChild(unlit(named("", rectangle({-0.5f, -2.0f, -half}, {1.0f, 0, 0},
+                                                  {0, 0, 2.0f * half}, {0, 0, 0, 1}))));
         const std::string name = "barredArch" + std::to_string(int(100.0f * half));
         const Readings found = readingsOf(group, from({0.4, -3.2, 0.3}), name, "texcoord=0");
         EXPECT_EQ(std::min(found.black, found.white), 0) << name;
