@@ -24,7 +24,7 @@ enum class Shape : std::uint32_t
     Torus = 7,     ///< Ring in xy from +x. size: ring radius, tube radius, angle in radians.
     Quad = 8,      ///< In xy, labelled on both sides. size: half extents, z unused.
     Extrusion = 9, ///< Along z. size: half extents.
-    TexCoord = 10  ///< The model's own texture coordinates.
+    TexCoord = 10  ///< The model's own texture coordinates; see fitTexCoords().
 };
 
 /// Bits beside the shape's number.
@@ -35,7 +35,8 @@ enum ShapeFlags : std::uint32_t
     /// From this bit on, for x, y and z, how much of the faces across the axis no text may use, in
     /// fifteenths; RoomBits each.
     RoomShift = 9,
-    RoomBits = 4
+    RoomBits = 4,
+    Bent = 0x200u ///< Of TexCoord, which has no rooms.
 };
 
 /// What the fragment shader knows of one labelled object: 48 bytes in a texture buffer, three

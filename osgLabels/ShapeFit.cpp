@@ -166,6 +166,7 @@ ObjectRecord FittedShape::record(std::uint32_t identifier) const
     made.shape = std::uint32_t(shape) | (projected ? std::uint32_t(Projected) : 0u);
     for (int i = 0; i < 3; ++i)
         made.shape |= (FullRoom - rooms[i]) << (RoomShift + RoomBits * unsigned(i));
+    made.shape |= bent ? std::uint32_t(Bent) : 0u;
     made.size = glm::vec3(size);
     made.identifier = identifier;
     return made;

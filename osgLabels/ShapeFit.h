@@ -25,6 +25,7 @@ struct FittedShape
     /// their middles, in FullRoom-ths.
     glm::uvec3 rooms{FullRoom};
     static constexpr unsigned int FullRoom = 15;
+    bool bent = false; ///< Of texture coordinates: see fitTexCoords().
     /// Farthest vertex from the shape, as a share of half the diagonal of the mesh's box; 0 for
     /// what is projected and for extrusions, whose profile may be any.
     double residual = 0.0;

@@ -16,6 +16,11 @@ namespace osgLabels
 /// text is not stretched on the whole. `position` of osgLabels_placeOn() is then the fragment's
 /// coordinate less the record's origin, with z = 0, and dx and dy its derivatives.
 ///
+/// Where the coordinates do not lie flat and even in the mesh, it is bent: one place does not tell
+/// where another one of the text is. Whatever has to be the same for the whole text goes by the
+/// mesh's middle then, which z and w of the rotation and z of the origin hold, and by z of the
+/// size, a length well within its extent.
+///
 /// None without coordinates for all vertices, without triangles, and where s or t is constant.
 OSGLABELS_EXPORT FittedShape fitTexCoords(const osg::Geometry& geometry, unsigned int unit);
 

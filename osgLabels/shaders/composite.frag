@@ -40,7 +40,7 @@ osgLabels_Place osgLabels_placeOf(osgLabels_Object object, uvec4 surface, ivec2 
 #ifdef OSGLABELS_TEXTURED
     if ((object.shape & 0xffu) == 10u)
         return osgLabels_locateTextured(
-            object, at, texelFetch(osgLabels_texCoords, p, osgLabels_sample).xy,
+            object, osgLabels_frameOf(int(surface.y)), at, texelFetch(osgLabels_texCoords, p, osgLabels_sample).xy,
             texelFetch(osgLabels_changes, p, osgLabels_sample), width);
 #endif
     return osgLabels_locate(object, osgLabels_frameOf(int(surface.y)), at, width);
@@ -56,9 +56,9 @@ ivec2 osgLabels_texelAt(vec2 pixel)
 
 // The mean colour of the surface at three places along a text's line, as far as they are in view.
 // Where none is, of the first of others that is: between them and, as something long may lie along
-// the line, over and under it. `here` where all of these are hidden. But for that, it is the same for
+// the line, over and under it. `other` where all of these are hidden. But for that, it is the same for
 // all pixels of a text; it is never the colour of what hides it.
-vec3 osgLabels_seen(osgLabels_Place at, uint record, float width, vec3 here)
+vec3 osgLabels_seen(osgLabels_Place at, uint record, float width, vec3 other)
 {
     vec2 low = osgLabels_viewport.xy, high = low + 2.0 / osgLabels_viewport.zw - 1.0;
     vec2 middle = at.onLine[1].xy;
@@ -67,14 +67,14 @@ vec3 osgLabels_seen(osgLabels_Place at, uint record, float width, vec3 here)
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 3 || (i < 3 + 21 && sum.a == 0.0); ++i)
     {
-        int other = max(i - 3, 0);
-        vec2 off = float(other % 7 - 3) * 0.46 * along + float((other / 7 + 1) % 3 - 1) * over;
+        int n = max(i - 3, 0);
+        vec2 off = float(n % 7 - 3) * 0.46 * along + float((n / 7 + 1) % 3 - 1) * over;
         vec2 pixel = i < 3 ? at.onLine[i].xy : middle + off;
         ivec2 p = osgLabels_texelAt(clamp(pixel, low, high));
         bool isOwn = texelFetch(osgLabels_surfaces, p, 0).x == record;
         sum += float(isOwn) * vec4(texelFetch(osgLabels_color, p, 0).rgb, 1.0);
     }
-    return sum.a > 0.0 ? sum.rgb / sum.a : here;
+    return sum.a > 0.0 ? sum.rgb / sum.a : other;
 }
 
 void main()
@@ -95,7 +95,8 @@ void main()
             osgLabels_Place at = osgLabels_placeOf(object, surface, p, width);
             if (at.inside)
                 color = osgLabels_over(color, text, at, osgLabels_styleOf(object.id),
-                                       osgLabels_seen(at, surface.x, width, color.rgb));
+                                       osgLabels_seen(at, surface.x, width,
+                                                      osgLabels_isBent(object) ? vec3(1.0) : color.rgb));
         }
     }
     osgmr_out0 = color;

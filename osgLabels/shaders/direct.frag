@@ -15,18 +15,15 @@ vec4 osgLabels_direct(vec4 color, int index, vec2 texCoord, vec4 change)
     if (text.length == 0)
         return color;
     float width = osgLabels_width(text);
+    osgLabels_Frame frame = osgLabels_Frame(
+        osgLabels_frameValues[0], osgLabels_frameValues[1], osgLabels_frameValues[2],
+        osgLabels_frameValues[3], osgLabels_frameValues[4], osgLabels_frameValues[5],
+        osgLabels_frameValues[6], osgLabels_frameValues[7], osgLabels_frameValues[8]);
     osgLabels_Place at;
     if ((object.shape & 0xffu) == 10u)
-        at = osgLabels_locateTextured(object, surface, texCoord, change, width);
+        at = osgLabels_locateTextured(object, frame, surface, texCoord, change, width);
     else
-        at = osgLabels_locate(
-            object,
-            osgLabels_Frame(osgLabels_frameValues[0], osgLabels_frameValues[1],
-                            osgLabels_frameValues[2], osgLabels_frameValues[3],
-                            osgLabels_frameValues[4], osgLabels_frameValues[5],
-                            osgLabels_frameValues[6], osgLabels_frameValues[7],
-                            osgLabels_frameValues[8]),
-            surface, width);
+        at = osgLabels_locate(object, frame, surface, width);
     if (!at.inside)
         return color;
     // No picture of the surface is there to choose ink by; the material's colour is the same for

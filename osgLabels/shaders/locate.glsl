@@ -32,6 +32,12 @@ osgLabels_Object osgLabels_objectOf(uint index)
                             uintBitsToFloat(c.xyz), c.w);
 }
 
+// Along texture coordinates that are not flat in the mesh.
+bool osgLabels_isBent(osgLabels_Object object)
+{
+    return (object.shape & 0x2ffu) == 0x20au;
+}
+
 // Relative to the eye.
 vec3 osgLabels_pointAt(osgLabels_Frame frame, bool parallel, vec2 ndc, float distance)
 {
@@ -75,9 +81,11 @@ osgLabels_Place osgLabels_locate(osgLabels_Object object, osgLabels_Frame frame,
     return at;
 }
 
-// A label that follows texture coordinates.
-osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, osgLabels_Surface surface,
-                                         vec2 at, vec4 change, float width)
+// A label that follows texture coordinates. Where these are not flat in the mesh its ink goes by
+// places around the mesh's middle: the same for all pixels of the object.
+osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, osgLabels_Frame frame,
+                                         osgLabels_Surface surface, vec2 at, vec4 change,
+                                         float width)
 {
     osgLabels_View view;
     view.base = vec3(0.0);
@@ -90,6 +98,14 @@ osgLabels_Place osgLabels_locateTextured(osgLabels_Object object, osgLabels_Surf
     osgLabels_Place result =
         osgLabels_placeOn(object, vec3(at - object.origin.xy, 0.0), vec3(change.xy, 0.0),
                           vec3(change.zw, 0.0), view, width);
+    if (osgLabels_isBent(object))
+    {
+        vec3 middle = vec3(object.rotation.zw, object.origin.z) - frame.eye;
+        for (int i = 0; i < 3; ++i)
+            result.onLine[i].xy = osgLabels_pixelAt(
+                frame, surface.parallel, middle + (float(i) - 1.0) * object.size.z * frame.right);
+        return result;
+    }
     // As if the surface were flat: only the ink's colour depends on it. In perspective what lies
     // farther away by a share is nearer on the screen by that.
     mat2 toPixels = inverse(result.footprint);

@@ -127,3 +127,37 @@ TEST(DrawableFitTest, textFollowsTextureCoordinatesUnstretched)
     geometry->setTexCoordArray(0, new osg::Vec2Array(4));
     EXPECT_EQ(int(fitTexCoords(*geometry, 0).shape), int(Shape::None));
 }
+
+TEST(DrawableFitTest, textureCoordinatesThatAreNotFlatInTheMeshAreToldByItsMiddle)
+{
+    const auto strip = [](const std::vector<osg::Vec3>& points, const std::vector<float>& s)
+    {
+        osg::ref_ptr<osg::Vec3Array> vertices = new osg::Vec3Array;
+        osg::ref_ptr<osg::Vec2Array> at = new osg::Vec2Array;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            for (const float t : {0.0f, 1.0f})
+            {
+                vertices->push_back(points[i] + osg::Vec3(0, 0, t));
+                at->push_back({s[i], t});
+            }
+        osg::ref_ptr<osg::Geometry> geometry = new osg::Geometry;
+        geometry->setVertexArray(vertices);
+        geometry->setTexCoordArray(0, at);
+        geometry->addPrimitiveSet(
+            new osg::DrawArrays(GL_TRIANGLE_STRIP, 0, GLsizei(vertices->size())));
+        return fitTexCoords(*geometry, 0);
+    };
+    const std::vector<float> even{0.0f, 0.5f, 1.0f};
+    const FittedShape flat = strip({{0, 3, 0}, {2, 3, 0}, {4, 3, 0}}, even);
+    EXPECT_FALSE(flat.bent);
+    EXPECT_EQ(flat.record(1).shape, std::uint32_t(Shape::TexCoord));
+    const FittedShape folded = strip({{0, 3, 0}, {2, 5, 0}, {4, 3, 0}}, even);
+    EXPECT_TRUE(folded.bent);
+    EXPECT_EQ(folded.record(1).shape, std::uint32_t(Shape::TexCoord) | osgLabels::Bent);
+    // The middle of the surface, and a quarter of the middle one of its lengths, 4, 2 and 1.
+    EXPECT_NEAR(folded.rotation.z, 2.0, 1e-6);
+    EXPECT_NEAR(folded.rotation.w, 4.0, 1e-6);
+    EXPECT_NEAR(folded.origin.z, 0.5, 1e-6);
+    EXPECT_NEAR(folded.size.z, 0.5, 1e-6);
+    EXPECT_TRUE(strip({{0, 3, 0}, {1, 3, 0}, {4, 3, 0}}, even).bent) << "uneven";
+}

@@ -7,6 +7,7 @@
 #include <osg/ComputeBoundsVisitor>
 
 #include <cstdlib>
+#include <map>
 
 using namespace cityPictures;
 using mapTruth::Effect;
@@ -100,6 +101,40 @@ osg::Vec3d middleOf(const City& city, const std::string& name)
     return find.found;
 }
 
+/// The town with its buildings in quarters of 25, and labels in turn of a building, of its quarter
+/// and of all buildings, each at the building.
+City inQuarters()
+{
+    City city = makeTown();
+    osg::Group* buildings = nullptr;
+    for (unsigned int i = 0; i < city.scene->getNumChildren(); ++i)
+        if (city.scene->getChild(i)->getName() == "Buildings")
+            buildings = city.scene->getChild(i)->asGroup();
+    std::vector<osg::ref_ptr<osg::Node>> all;
+    for (unsigned int i = 0; i < buildings->getNumChildren(); ++i)
+        all.push_back(buildings->getChild(i));
+    buildings->removeChildren(0, buildings->getNumChildren());
+    std::map<std::string, std::string> quarterOf;
+    osg::ref_ptr<osg::Group> quarter;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+        if (i % 25 == 0)
+        {
+            quarter = new osg::Group;
+            quarter->setName("Quarter " + std::to_string(i / 25));
+            buildings->addChild(quarter);
+        }
+        quarter->addChild(all[i]);
+        quarterOf[all[i]->getName()] = quarter->getName();
+    }
+    for (std::size_t i = 0; i < city.labels.size(); ++i)
+    {
+        std::string& feature = city.labels[i].feature;
+        feature = i % 3 == 0 ? feature : i % 3 == 1 ? quarterOf[feature] : "Buildings";
+    }
+    return city;
+}
+
 const bool isLong = std::getenv("OSGKITS_LONG") != nullptr;
 
 } // namespace
@@ -137,6 +172,21 @@ TEST_F(MapLabelsTruthGLTest, labelsInsideOfTheirFeaturesAndBehindThemAreNotHidde
                                                         std::to_string(seconds));
         }
     }
+}
+
+TEST_F(MapLabelsTruthGLTest, labelsOfQuartersAndOfBuildingsInThemAreHiddenExactlyToo)
+{
+    const City quarters = inQuarters();
+    std::size_t pixels = 0, hidden = 0;
+    for (const double seconds : {0.0, 8.0, 16.0, 24.0, 32.0})
+    {
+        const Comparison found =
+            compare(quarters, cameraAt(seconds), static_cast<unsigned int>(seconds));
+        expectExact(found, "quarters at second " + std::to_string(seconds));
+        pixels += found.pixels;
+        hidden += found.affected;
+    }
+    EXPECT_GT(hidden, pixels / 50);
 }
 
 TEST_F(MapLabelsTruthGLTest, treesFadeAndTerrainIsIgnoredWhereRulesSaySo)
