@@ -25,7 +25,8 @@ struct Subcommand
 };
 
 extern const Subcommand BuildCommand, InfoCommand, VerifyCommand, ExtractCommand, CompactCommand;
-extern const Subcommand MaskCommand;
+extern const Subcommand MaskCommand, LayoutCommand, AtlasCommand, NeighboursCommand,
+    ReferenceCommand, BlendCommand;
 
 /// "1,234,567".
 std::string grouped(std::uint64_t number);

@@ -24,9 +24,10 @@ Makes, changes and looks at tile stores: pyramids of small pictures that a virtu
 Exit status: 0 all is well, 1 something failed (standard error says what), 2 wrong options.
 )";
 
-const Subcommand* const Subcommands[] = {&BuildCommand, &InfoCommand, &VerifyCommand,
-                                         &ExtractCommand, &CompactCommand,
-                                         &MaskCommand};
+const Subcommand* const Subcommands[] = {&BuildCommand,     &InfoCommand,    &VerifyCommand,
+                                         &ExtractCommand,   &CompactCommand, &MaskCommand,
+                                         &LayoutCommand,    &AtlasCommand,   &NeighboursCommand,
+                                         &ReferenceCommand, &BlendCommand};
 
 std::string helpText()
 {
