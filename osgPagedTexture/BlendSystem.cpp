@@ -18,7 +18,7 @@ using Triplet = Eigen::Triplet<double>;
 
 /// Of a pixel of seam against a step between two neighbours of the grid.
 constexpr double SeamWeight = 1.0;
-/// Keeps what no seam reaches, and the sum of all, at 0.
+/// Makes the equations have one solution; see center().
 constexpr double Anchor = 1e-7;
 
 /// Samples one after the other that lie in the same cells, taken together.
@@ -181,6 +181,40 @@ BlendSolution iterate(const Matrix& matrix, const Eigen::MatrixXd& rightSides, B
     return solution;
 }
 
+/// Whatever seams connect could be brighter or darker as a whole: the mean of its corrections is 0.
+/// The matrix says what is connected: values that share an entry.
+void center(const Matrix& matrix, BlendValues& values)
+{
+    std::vector<Eigen::Index> group(std::size_t(matrix.cols()), -1);
+    std::vector<Eigen::Index> members;
+    for (Eigen::Index first = 0; first < matrix.cols(); ++first)
+    {
+        if (group[std::size_t(first)] >= 0)
+            continue;
+        members.assign(1, first);
+        group[std::size_t(first)] = first;
+        for (std::size_t next = 0; next < members.size(); ++next)
+        {
+            for (Matrix::InnerIterator entry(matrix, members[next]); entry; ++entry)
+            {
+                Eigen::Index& other = group[std::size_t(entry.row())];
+                if (other >= 0)
+                    continue;
+                other = first;
+                members.push_back(entry.row());
+            }
+        }
+        for (std::vector<double>& channel : values)
+        {
+            double sum = 0.0;
+            for (Eigen::Index each : members)
+                sum += channel[std::size_t(each)];
+            for (Eigen::Index each : members)
+                channel[std::size_t(each)] -= sum / double(members.size());
+        }
+    }
+}
+
 } // namespace
 
 BlendSolution solveBlend(const BlendGrid& grid, const std::vector<SeamSample>& samples,
@@ -189,12 +223,14 @@ BlendSolution solveBlend(const BlendGrid& grid, const std::vector<SeamSample>& s
     Assembly assembly(grid);
     assembly.addSmoothness();
     assembly.addSeams(samples);
+    const Matrix matrix = assembly.matrix();
+    BlendSolution solution;
     if (direct)
-    {
-        solveDirectly(assembly.matrix(), assembly.rightSides(), values);
-        return {};
-    }
-    return iterate(assembly.matrix(), assembly.rightSides(), values, iterations, error);
+        solveDirectly(matrix, assembly.rightSides(), values);
+    else
+        solution = iterate(matrix, assembly.rightSides(), values, iterations, error);
+    center(matrix, values);
+    return solution;
 }
 
 } // namespace osgPagedTexture

@@ -49,6 +49,7 @@ osg::ref_ptr<osg::Image> readOverview(const TileReader& reader, int longestSide)
     osg::ref_ptr<osg::Image> image = new osg::Image;
     image->allocateImage(std::max(1, int(width * shrink)), std::max(1, int(height * shrink)), 1,
                          GL_RGB, GL_UNSIGNED_BYTE, 1);
+    unsigned char* pixel = image->data();
     for (int y = 0; y < image->t(); ++y)
     {
         for (int x = 0; x < image->s(); ++x)
@@ -58,7 +59,7 @@ osg::ref_ptr<osg::Image> readOverview(const TileReader& reader, int longestSide)
                                    pixels.height - (1.0 - (y + 0.5) / image->t()) * height);
             const glm::vec3 color = lookUp(pixels, place);
             for (int channel = 0; channel < 3; ++channel)
-                image->data(x, y)[channel] = static_cast<unsigned char>(color[channel] + 0.5f);
+                *pixel++ = static_cast<unsigned char>(color[channel] + 0.5f);
         }
     }
     return image;
