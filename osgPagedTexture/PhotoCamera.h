@@ -37,7 +37,7 @@ struct PhotoCamera
     std::array<glm::dvec4, 3> rows{};
     double error = 0.0; ///< Root mean square over the points, in pixels.
 
-    glm::dvec3 project(const glm::dvec3& place) const;
+    OSGPAGEDTEXTURE_EXPORT glm::dvec3 project(const glm::dvec3& place) const;
 };
 
 /// Finds the camera from points that a photograph shows. `largestError`, in pixels: above it, what
