@@ -8,7 +8,7 @@ packages=(
     # compiler and build
     g++ cmake ninja-build
     # libraries
-    libopenscenegraph-dev libglm-dev libopenimageio-dev openimageio-tools libosmesa6-dev libegl-dev
+    libopenscenegraph-dev libglm-dev libeigen3-dev libopenimageio-dev openimageio-tools libosmesa6-dev libegl-dev
     libgl-dev
     libfreetype-dev libharfbuzz-dev libcsv-dev pkg-config
     libjpeg-dev libxxhash-dev

@@ -26,19 +26,6 @@ namespace osgPagedTexture
 namespace
 {
 
-PhotoWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter side)
-{
-    switch (texture.getWrap(side))
-    {
-    case osg::Texture::REPEAT:
-        return PhotoWrap::Repeat;
-    case osg::Texture::MIRROR:
-        return PhotoWrap::Mirror;
-    default:
-        return PhotoWrap::Clamp;
-    }
-}
-
 bool isFinite(const osg::Vec3d& v)
 {
     return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
@@ -226,6 +213,19 @@ private:
 };
 
 } // namespace
+
+PhotoWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter side)
+{
+    switch (texture.getWrap(side))
+    {
+    case osg::Texture::REPEAT:
+        return PhotoWrap::Repeat;
+    case osg::Texture::MIRROR:
+        return PhotoWrap::Mirror;
+    default:
+        return PhotoWrap::Clamp;
+    }
+}
 
 std::string photoFileOf(const osg::Texture& texture, const FileImages* images)
 {

@@ -5,6 +5,7 @@
 #include <osgPagedTexture/PhotoSurface.h>
 
 #include <osg/Node>
+#include <osg/Texture>
 
 #include <memory>
 #include <stdexcept>
@@ -43,5 +44,7 @@ OSGPAGEDTEXTURE_EXPORT void collectPhotos(ModelPhotos& photos, bool withPlaces);
 
 /// The file of a texture's image, absolute; empty where it has none. `images` may be null.
 std::string photoFileOf(const osg::Texture& texture, const FileImages* images);
+
+PhotoWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter side);
 
 } // namespace osgPagedTexture

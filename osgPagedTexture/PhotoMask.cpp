@@ -145,17 +145,16 @@ osg::ref_ptr<osg::GraphicsContext> makeOffscreenContext()
     osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
     traits->width = traits->height = 16;
     traits->pbuffer = true;
-    osg::ref_ptr<osg::GraphicsContext> context =
-        osg::GraphicsContext::createGraphicsContext(traits);
-    if (!context)
+    if (osg::GraphicsContext::getWindowingSystemInterfaces()->getInterfaces().empty())
     {
         osgDB::Registry* registry = osgDB::Registry::instance();
         const std::string plugin = registry->createLibraryNameForExtension("egl");
         if (registry->loadLibrary(plugin) == osgDB::Registry::NOT_LOADED)
             throw MaskError("masks need OpenGL, and the plugin " + plugin +
                             " can't be loaded; set OSG_LIBRARY_PATH to the folder that holds it");
-        context = osg::GraphicsContext::createGraphicsContext(traits);
     }
+    const osg::ref_ptr<osg::GraphicsContext> context =
+        osg::GraphicsContext::createGraphicsContext(traits);
     if (!context || !context->valid())
         throw MaskError("masks need OpenGL, and no context can be made on this machine");
     return context;

@@ -46,12 +46,34 @@ void write(const std::string& path, const Pixels& pixels, int quality, const fs:
         fail(name.string(), output->geterror());
 }
 
-} // namespace
-
-void writePictureFile(const std::string& path, const Pixels& pixels, int quality)
+void writePages(const std::string& path, const std::vector<PictureLayer>& layers,
+                const fs::path& name)
 {
-    if (pixels.empty())
-        fail(path, "it has no pixels");
+    auto output = OIIO::ImageOutput::create("tiff");
+    if (!output)
+        fail(name.string(), OIIO::geterror());
+    auto mode = OIIO::ImageOutput::Create;
+    for (const PictureLayer& layer : layers)
+    {
+        const Pixels& pixels = layer.pixels;
+        OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, OIIO::TypeUInt8);
+        spec.attribute("tiff:PageName", layer.name);
+        spec.attribute("oiio:UnassociatedAlpha", 1);
+        spec.attribute("Compression", "zip");
+        const auto stride = OIIO::stride_t(pixels.width) * pixels.channels;
+        if (!output->open(path, spec, mode) ||
+            !output->write_image(OIIO::TypeUInt8, pixels.row(pixels.height - 1), OIIO::AutoStride,
+                                 -stride))
+            fail(name.string(), output->geterror());
+        mode = OIIO::ImageOutput::AppendSubimage;
+    }
+    if (!output->close())
+        fail(name.string(), output->geterror());
+}
+
+/// Lets `writeTo` make a file beside, which then takes the place of the wanted one.
+template <class Write> void replaceFile(const std::string& path, const Write& writeTo)
+{
     const fs::path file(path);
     std::error_code failure;
     if (file.has_parent_path())
@@ -63,7 +85,7 @@ void writePictureFile(const std::string& path, const Pixels& pixels, int quality
         file.parent_path() / (file.stem().string() + ".part" + file.extension().string());
     try
     {
-        write(half.string(), pixels, quality, file);
+        writeTo(half.string());
     }
     catch (...)
     {
@@ -73,6 +95,22 @@ void writePictureFile(const std::string& path, const Pixels& pixels, int quality
     fs::rename(half, file, failure);
     if (failure)
         fail(path, failure.message());
+}
+
+} // namespace
+
+void writePictureFile(const std::string& path, const Pixels& pixels, int quality)
+{
+    if (pixels.empty())
+        fail(path, "it has no pixels");
+    replaceFile(path, [&](const std::string& half) { write(half, pixels, quality, path); });
+}
+
+void writeLayers(const std::string& path, const std::vector<PictureLayer>& layers)
+{
+    if (layers.empty())
+        fail(path, "it has no layers");
+    replaceFile(path, [&](const std::string& half) { writePages(half, layers, path); });
 }
 
 } // namespace osgPagedTexture

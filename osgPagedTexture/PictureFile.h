@@ -5,6 +5,7 @@
 #include <osgPagedTexture/Pixels.h>
 
 #include <string>
+#include <vector>
 
 namespace osgPagedTexture
 {
@@ -14,5 +15,16 @@ namespace osgPagedTexture
 /// the way. Throws ImageError.
 OSGPAGEDTEXTURE_EXPORT void writePictureFile(const std::string& path, const Pixels& pixels,
                                              int quality = 95);
+
+struct PictureLayer
+{
+    std::string name;
+    Pixels pixels; ///< RGB or RGBA.
+};
+
+/// Writes layers of one size as the pages of a TIFF file, the first one being the lowest, as GIMP
+/// and others open them. As writePictureFile() else.
+OSGPAGEDTEXTURE_EXPORT void writeLayers(const std::string& path,
+                                        const std::vector<PictureLayer>& layers);
 
 } // namespace osgPagedTexture

@@ -24,8 +24,9 @@ struct Subcommand
     int (*run)(const Arguments& arguments);
 };
 
-extern const Subcommand MaskCommand, BuildCommand, MergeCommand, UpdateCommand, InfoCommand,
-    VerifyCommand, ExtractCommand, CompactCommand;
+extern const Subcommand MaskCommand, LayoutCommand, BuildCommand, MergeCommand, AtlasCommand,
+    UpdateCommand, InfoCommand, VerifyCommand, ExtractCommand, CompactCommand, NeighboursCommand,
+    ReferenceCommand, BlendCommand;
 
 /// "1,234,567".
 std::string grouped(std::uint64_t number);

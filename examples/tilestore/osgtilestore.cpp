@@ -24,9 +24,10 @@ Makes, changes and looks at tile stores: pyramids of small pictures that a virtu
 Exit status: 0 all is well, 1 something failed (standard error says what), 2 wrong options.
 )";
 
-const Subcommand* const Subcommands[] = {&MaskCommand,    &BuildCommand,  &MergeCommand,
-                                         &UpdateCommand,  &InfoCommand,   &VerifyCommand,
-                                         &ExtractCommand, &CompactCommand};
+const Subcommand* const Subcommands[] = {
+    &MaskCommand,       &LayoutCommand,    &BuildCommand,  &MergeCommand,   &AtlasCommand,
+    &UpdateCommand,     &InfoCommand,      &VerifyCommand, &ExtractCommand, &CompactCommand,
+    &NeighboursCommand, &ReferenceCommand, &BlendCommand};
 
 std::string helpText()
 {

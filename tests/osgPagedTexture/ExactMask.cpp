@@ -122,6 +122,14 @@ void ExactMask::add(const PhotoSurface& surface, std::size_t index)
         addClamped(surface, index);
 }
 
+Pixels ExactMask::getMask() const
+{
+    Pixels mask(_width, _height, 1);
+    for (std::size_t i = 0; i < _used.size(); ++i)
+        mask.bytes[i] = _used[i] || _edge[i] ? 255 : 0;
+    return mask;
+}
+
 ExactMask::Difference ExactMask::compare(const Pixels& mask) const
 {
     Difference difference;

@@ -27,6 +27,7 @@ public:
         std::size_t edges = 0; ///< Pixels whose middle is within EdgeReach of an edge.
         std::size_t used = 0;
     };
+    osgPagedTexture::Pixels getMask() const;
     Difference compare(const osgPagedTexture::Pixels& mask) const;
 
 private:

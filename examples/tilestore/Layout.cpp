@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#include "Model.h"
+#include "Progress.h"
+#include "Subcommand.h"
+
+#include <osgPagedTexture/AtlasLayout.h>
+#include <osgPagedTexture/PhotoMask.h>
+#include <osgPagedTexture/UsedParts.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+namespace tilestore
+{
+
+namespace
+{
+
+using namespace osgPagedTexture;
+
+constexpr char Help[] =
+    R"(osgtilestore layout MODEL LAYOUT
+Lays the photographs that a model shows out in one atlas and writes the layout's file, from which
+`build` makes the store and `atlas` the model's coordinates.
+
+  --tight          only the parts that the model shows, each with a place of its own
+  --margin N       with --tight: pixels around what is shown, 0 to 4096; default 16
+  --tile-side N    of the store that will be built, with borders; default 256
+  --border N       of its tiles; default 8
+  --padding N      pixels around photographs that repeat their edge; default 12
+  --json           what was laid out as JSON
+  --help           this text
+)";
+
+std::string relativeTo(const std::filesystem::path& layout, const std::string& file)
+{
+    std::error_code failure;
+    const std::filesystem::path folder =
+        std::filesystem::weakly_canonical(std::filesystem::absolute(layout), failure).parent_path();
+    return std::filesystem::path(file).lexically_relative(folder).generic_string();
+}
+
+std::vector<AtlasPhoto> partsOf(const ModelPhotos& model, const std::string& layout, bool tight,
+                                int margin)
+{
+    osg::ref_ptr<osg::GraphicsContext> context;
+    std::unique_ptr<MaskRenderer> renderer;
+    if (tight && !model.photos.empty())
+    {
+        context = makeOffscreenContext();
+        renderer = std::make_unique<MaskRenderer>(*context);
+    }
+    MaskSettings masks;
+    masks.conservative = true;
+    masks.margin = margin;
+    const std::string folder = std::filesystem::absolute(layout).parent_path().string();
+    std::vector<AtlasPhoto> parts;
+    Progress progress("layout", "photographs");
+    for (std::size_t i = 0; i < model.photos.size(); ++i)
+    {
+        progress.show(i, model.photos.size());
+        const Photo& photo = model.photos[i];
+        if (photo.file.empty())
+            continue;
+        AtlasPhoto part = describePhoto(folder, relativeTo(layout, photo.file));
+        if (!renderer)
+        {
+            parts.push_back(part);
+            continue;
+        }
+        for (const PixelRect& used : findUsedParts(renderer->render(photo, masks).pixels))
+        {
+            part.used = {used};
+            parts.push_back(part);
+        }
+    }
+    return parts;
+}
+
+int run(const Arguments& arguments)
+{
+    const auto& files = arguments.files(2, 2, "MODEL LAYOUT");
+    const int side = int(arguments.number("--tile-side", 256, 16, 4096));
+    const int border = int(arguments.number("--border", 8, 0, (side - 1) / 2));
+    AtlasSettings settings = AtlasSettings::forTiles(side, border);
+    settings.padding = int(arguments.number("--padding", settings.padding, 0, 65536));
+    const ModelPhotos model = readModel(files[0]);
+    const AtlasLayout layout = packAtlas(partsOf(model, files[1], arguments.has("--tight"),
+                                                 int(arguments.number("--margin", 16, 0, 4096))),
+                                         settings);
+    writeAtlasLayout(files[1], layout);
+    double pixels = 0.0, placed = 0.0;
+    for (const Photo& photo : model.photos)
+        pixels += double(photo.width) * photo.height;
+    for (const AtlasPhoto& photo : layout.photos)
+        placed += double(photo.getPlace().width) * double(photo.getPlace().height);
+    if (arguments.isJson())
+        print({{"layout", files[1]},
+               {"width", layout.width},
+               {"height", layout.height},
+               {"photographs", model.photos.size()},
+               {"places", layout.photos.size()},
+               {"placedPixels", placed},
+               {"photographPixels", pixels}});
+    else
+        std::printf("%s: %s x %s pixels, %s places for %s photographs, %.1f %% of their pixels\n",
+                    files[1].c_str(), grouped(std::uint64_t(layout.width)).c_str(),
+                    grouped(std::uint64_t(layout.height)).c_str(),
+                    grouped(layout.photos.size()).c_str(), grouped(model.photos.size()).c_str(),
+                    pixels > 0.0 ? 100.0 * placed / pixels : 0.0);
+    return 0;
+}
+
+} // namespace
+
+const Subcommand LayoutCommand{
+    "layout",
+    "an atlas of the photographs that a model shows",
+    Help,
+    {{"--tight", false}, {"--margin"}, {"--tile-side"}, {"--border"}, {"--padding"}},
+    run};
+
+} // namespace tilestore

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include <osgPagedTexture/AtlasModel.h>
+
+#include <osgPagedTexture/FileImages.h>
+#include <osgPagedTexture/ImageFile.h>
+#include <osgPagedTexture/PictureFile.h>
+
+#include <osg/NodeVisitor>
+#include <osg/ValueObject>
+#include <osgDB/FileNameUtils>
+#include <osgDB/Registry>
+
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+namespace osgPagedTexture
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+/// All textures below a node.
+class TextureVisitor : public osg::NodeVisitor
+{
+public:
+    TextureVisitor() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    void apply(osg::Node& node) override
+    {
+        const osg::StateSet* stateSet = node.getStateSet();
+        for (unsigned int unit = 0; stateSet && unit < stateSet->getNumTextureAttributeLists();
+             ++unit)
+        {
+            const osg::StateAttribute* attribute =
+                stateSet->getTextureAttribute(unit, osg::StateAttribute::TEXTURE);
+            if (attribute)
+                textures.insert(const_cast<osg::Texture*>(attribute->asTexture()));
+        }
+        traverse(node);
+    }
+    void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
+
+    std::set<osg::Texture*> textures;
+};
+
+bool hasPicturesInside(const std::string& path)
+{
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    for (const char* each : {"osgb", "osgt", "osgx", "ive"})
+        if (extension == each)
+            return true;
+    return false;
+}
+
+std::string relativeTo(const fs::path& folder, const std::string& file)
+{
+    std::error_code failure;
+    const fs::path near = fs::relative(file, folder, failure);
+    return failure || near.empty() ? file : near.generic_string();
+}
+
+Pixels pixelsOf(const osg::Image& image)
+{
+    Pixels pixels(image.s(), image.t(), 3);
+    for (int y = 0; y < image.t(); ++y)
+        std::memcpy(pixels.row(y), image.data(0, y), std::size_t(image.s()) * 3);
+    return pixels;
+}
+
+/// The overview is inside of the model or beside it, photographs stay where they are.
+void prepareImage(osg::Texture& texture, const ModelPhotos& model, const fs::path& path)
+{
+    osg::Image* image = texture.getImage(0);
+    if (!image)
+        return;
+    std::string store;
+    if (texture.getUserValue("osgPagedTexture.store", store))
+    {
+        const std::string name = path.stem().string() + ".overview.png";
+        image->setFileName(name);
+        const bool inside = hasPicturesInside(path.string());
+        image->setWriteHint(inside ? osg::Image::STORE_INLINE : osg::Image::EXTERNAL_FILE);
+        if (!inside)
+            writePictureFile((path.parent_path() / name).string(), pixelsOf(*image));
+        return;
+    }
+    const std::string file = photoFileOf(texture, model.images.get());
+    if (file.empty())
+        return;
+    image->setFileName(relativeTo(path.parent_path().empty() ? "." : path.parent_path(), file));
+    image->setWriteHint(osg::Image::EXTERNAL_FILE);
+}
+
+} // namespace
+
+void writeAtlasModel(const ModelPhotos& model, const std::string& path)
+{
+    TextureVisitor visitor;
+    model.model->accept(visitor);
+    for (osg::Texture* texture : visitor.textures)
+        prepareImage(*texture, model, path);
+    osgDB::Registry* registry = osgDB::Registry::instance();
+    const std::string extension = osgDB::getLowerCaseFileExtension(path);
+    if (!registry->getReaderWriterForExtension(extension))
+        throw ModelError("model '" + path + "' can't be written: no plugin of OSG knows '." +
+                         extension + "'; use .osgb");
+    const osgDB::ReaderWriter::WriteResult result =
+        registry->writeNode(*model.model, path, registry->getOptions());
+    if (!result.success())
+    {
+        const std::string cause = !result.message().empty() ? result.message()
+                                  : result.notHandled() ? "OSG reads this format only; use .osgb"
+                                                        : "its plugin failed";
+        throw ModelError("model '" + path + "' can't be written: " + cause);
+    }
+}
+
+} // namespace osgPagedTexture

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <osgPagedTexture/Export.h>
+#include <osgPagedTexture/Pixels.h>
+#include <osgPagedTexture/TileGrid.h>
+
+#include <vector>
+
+namespace osgPagedTexture
+{
+
+/// Rectangles that hold all used pixels of a mask, in pixels from the picture's top left corner.
+/// They do not overlap; pixels that touch each other are in one. Their sides lie on multiples of
+/// `block`, or on the picture's edge, so that they can be cut out of a JPEG without loss. None for
+/// a mask without used pixels.
+OSGPAGEDTEXTURE_EXPORT std::vector<PixelRect> findUsedParts(const Pixels& mask, int block = 16);
+
+} // namespace osgPagedTexture
