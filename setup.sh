@@ -11,7 +11,7 @@ packages=(
     libopenscenegraph-dev libglm-dev libeigen3-dev libopenimageio-dev openimageio-tools libosmesa6-dev libegl-dev
     libgl-dev
     libfreetype-dev libharfbuzz-dev libcsv-dev pkg-config
-    libjpeg-dev libxxhash-dev
+    libjpeg-dev libpng-dev libxxhash-dev
     nlohmann-json3-dev libpugixml-dev libcli11-dev libgtest-dev libbenchmark-dev libcoin-dev libembree-dev
     # run time: the viewer, software GL, models, plots, a real X11 window for the tests
     openscenegraph libgl1-mesa-dri libegl-mesa0 libosmesa6 inventor-data fonts-dejavu-core gnuplot-nox xvfb xauth
