@@ -72,15 +72,18 @@ void PageTable::deepen(int finest)
         const PageTableLayout::Level& place = _layout.at(level);
         for (int y = 0; y < place.rows; ++y)
         {
+            std::uint32_t* row = &entryAt(level, 0, y);
+            if (level >= before.finest)
+            {
+                const PageTableLayout::Level& from = before.at(level);
+                const auto first = std::size_t(from.y + y) * before.width + from.x;
+                std::copy_n(old.data() + first, place.columns, row);
+                continue;
+            }
+            const std::uint32_t* parents = &entryAt(level + 1, 0, y / 2);
             for (int x = 0; x < place.columns; ++x)
             {
-                if (level < before.finest)
-                {
-                    entryAt(level, x, y) = entryAt(level + 1, x / 2, y / 2);
-                    continue;
-                }
-                const PageTableLayout::Level& from = before.at(level);
-                entryAt(level, x, y) = old[std::size_t(from.y + y) * before.width + from.x + x];
+                row[x] = parents[x / 2];
             }
         }
     }
@@ -111,10 +114,8 @@ template <class Change> void PageTable::forCovered(const PageKey& page, const Ch
         const int bottom = std::min((page.y + 1) << finer, place.rows);
         for (int y = top; y < bottom; ++y)
         {
-            for (int x = left; x < right; ++x)
-            {
-                change(entryAt(level, x, y));
-            }
+            std::uint32_t* row = &entryAt(level, 0, y);
+            std::for_each(row + left, row + right, change);
         }
         touch({place.x + left, place.y + top, right - left, bottom - top});
     }

@@ -29,7 +29,7 @@ struct VirtualPagerSettings
     /// Of pages that are replaced in their own slots when a texture goes to another state of its
     /// store; all in one frame. More than these are coarser for some frames.
     std::uint64_t switchBytes = std::uint64_t(8) << 20;
-    int maxTableSide = 4096; ///< Entries; levels with more pages in a row are not shown.
+    int maxTableSide = 2048; ///< Entries; levels with more pages in a row are not shown.
 };
 
 /// A page's way into the physical texture.
