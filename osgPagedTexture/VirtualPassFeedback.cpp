@@ -143,13 +143,32 @@ void VirtualPass::drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
     _resources->setBusy(frame.getStage().getCamera(), _frameNumber, _hasFeedback || view.feedback->isOnItsWay() || isFading);
 }
 
+/// Pictures of all pixels that it takes until each of a surface's textures has had its turn in
+/// each, and some taps along footprints have.
+unsigned int VirtualPass::wholePictures() const
+{
+    unsigned int most = 1;
+    for (const Codes& codes : _codes)
+    {
+        unsigned int units = 0;
+        bool hasTaps = false;
+        for (const Code& code : codes)
+        {
+            units += code.number >= 0;
+            hasTaps = hasTaps || (code.sampling & 255) > 1;
+        }
+        most = std::max(most, hasTaps ? std::max(2u, units) : units);
+    }
+    return most;
+}
+
 void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
                        VirtualContext::View& view)
 {
     osg::State& state = *renderInfo.getState();
     VirtualPager& pager = *_context->getPager();
     std::vector<PageNeed> needs;
-    if (view.feedback->take(state, needs))
+    while (view.feedback->take(state, needs))
         pager.report(view.number, needs);
     pager.advance(_resources->step(_frameNumber));
     _context->upload(state, _settings.uploadMilliseconds, _seconds);
@@ -160,13 +179,15 @@ void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     view.seen = seen;
     if (_codes.empty())
         return;
-    if (view.calmFrames >= unsigned(VirtualContext::View::CalmPictures))
+    // The last ones look at each pixel, for each unit: slivers of pages fall between those of the
+    // others.
+    const unsigned int whole = wholePictures();
+    if (view.calmFrames >= VirtualContext::View::CalmPictures + whole)
         return;
     const osgMultiRender::FramebufferVisit visit(state);
-    // The last one looks at each pixel: slivers of pages fall between those of the others.
-    const bool isLast = view.calmFrames + 1 == unsigned(VirtualContext::View::CalmPictures);
-    drawFeedback(renderInfo, frame, view, isLast ? 1 : _settings.feedback,
-                 view.calmFrames + _frameNumber);
+    const bool isWhole = view.calmFrames >= VirtualContext::View::CalmPictures;
+    drawFeedback(renderInfo, frame, view, isWhole ? 1 : _settings.feedback,
+                 isWhole ? view.calmFrames : _frameNumber);
     view.calmFrames += view.feedback->start(state);
 }
 

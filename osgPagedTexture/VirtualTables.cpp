@@ -58,6 +58,12 @@ void VirtualTables::apply(const TablePatch& patch)
     touch(table.row + patch.rect.y, patch.rect.height);
 }
 
+int VirtualTables::finestOf(std::uint32_t texture) const
+{
+    const Table& table = _tables.at(texture);
+    return table.layout ? table.layout->finest : pageLevels(table.grid) - 1;
+}
+
 std::uint32_t VirtualTables::coarsestOf(std::uint32_t texture) const
 {
     const auto found = _tables.find(texture);

@@ -124,8 +124,9 @@ TEST_F(VirtualBudgetGLTest, twoContextsShowTheSameSceneEachFromItsPlace)
         calm = both->isAtRest() ? calm + 1 : 0;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_EQ(support::difference(*actualNear, *expectedNear, 0.0).worst, 0.0);
-    EXPECT_EQ(support::difference(*actualFar, *expectedFar, 0.0).worst, 0.0);
+    // Pages lie in other slots, so that coordinates are rounded elsewhere.
+    EXPECT_LE(support::difference(*actualNear, *expectedNear, 0.0).worst, 1.01 / 255.0);
+    EXPECT_LE(support::difference(*actualFar, *expectedFar, 0.0).worst, 1.01 / 255.0);
     EXPECT_EQ(both->getPlans().size(), 2u);
     // The first viewer's objects go in its own context.
     second.getViewer().setSceneData(nullptr);
@@ -178,5 +179,5 @@ TEST_F(VirtualBudgetGLTest, thousandJumpsLeaveNothingBehind)
     const auto actual = virtuals::settle(_viewer, *scene, scene, lookFrom({0.0, 0.0, 20.0}));
     const auto fresh = makeScene("");
     const auto expected = virtuals::settle(_viewer, *fresh, fresh, lookFrom({0.0, 0.0, 20.0}));
-    EXPECT_EQ(support::difference(*actual, *expected, 0.0).worst, 0.0);
+    EXPECT_LE(support::difference(*actual, *expected, 0.0).worst, 1.01 / 255.0);
 }

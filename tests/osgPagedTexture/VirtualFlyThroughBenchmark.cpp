@@ -229,3 +229,9 @@ TEST_F(VirtualFlyThroughBenchmark, errorOverBudgetFeedbackAndPageSize)
     for (const int side : {64, 256})
         run("gpu=32", side);
 }
+
+int main(int argc, char** argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
+}
