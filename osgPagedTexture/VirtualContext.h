@@ -60,9 +60,9 @@ public:
         static constexpr unsigned int CalmPictures = 8;
 
         std::unique_ptr<VirtualFeedback> feedback;
-        unsigned int number = 0;      ///< With the pager.
-        std::uint64_t seen = 0;       ///< Hash of what was drawn.
-        unsigned int calmFrames = 0;  ///< Feedback pictures since it has changed.
+        unsigned int number = 0;     ///< With the pager.
+        std::uint64_t seen = 0;      ///< Hash of what was drawn.
+        unsigned int calmFrames = 0; ///< Feedback pictures since it has changed.
         unsigned int lastUse = 0;
         bool isReported = false;
     };

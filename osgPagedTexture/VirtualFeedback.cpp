@@ -28,9 +28,9 @@ std::vector<PageNeed> needsOf(const std::vector<std::uint16_t>& texels)
     {
         const std::uint16_t* texel = texels.data() + i;
         if (i == 0 || !std::equal(texel, texel + channels, texel - channels))
-            count = texel[0] == 0 ? nullptr
-                                  : &pixels[{std::uint32_t(texel[0] - 1), texel[1], texel[2],
-                                             texel[3]}];
+            count = texel[0] == 0
+                        ? nullptr
+                        : &pixels[{std::uint32_t(texel[0] - 1), texel[1], texel[2], texel[3]}];
         if (count)
             ++*count;
     }

@@ -202,8 +202,8 @@ void VirtualPass::sendFrame(osg::State& state) const
     gl->glUniform2f(program.getUniformLocation(texelName), 1.0f / float(pages.getTextureWidth()),
                     1.0f / float(pages.getTextureHeight()));
     // While nothing fades, no pixel asks.
-    const bool fades = !_settings.wait &&
-                       _seconds < _context->getLastArrival() + _settings.fadeSeconds;
+    const bool fades =
+        !_settings.wait && _seconds < _context->getLastArrival() + _settings.fadeSeconds;
     gl->glUniform2f(program.getUniformLocation(timeName), float(_seconds),
                     fades ? float(1.0 / _settings.fadeSeconds) : 0.0f);
 }
@@ -213,11 +213,10 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
     using Decision = osgMultiRender::PlanEntry::Decision;
     for (const VirtualResources::Line& line : _resources->getLines())
     {
-        osgMultiRender::PlanEntry entry{"virtual texture '" + line.file + "' " +
-                                            std::to_string(line.width) + "x" +
-                                            std::to_string(line.height),
-                                        Decision::Drawn,
-                                        std::to_string(line.pages) + " pages on all levels"};
+        osgMultiRender::PlanEntry entry{
+            "virtual texture '" + line.file + "' " + std::to_string(line.width) + "x" +
+                std::to_string(line.height),
+            Decision::Drawn, std::to_string(line.pages) + " pages on all levels"};
         if (!line.error.empty())
             entry = {"virtual texture '" + line.file + "'", Decision::Dropped, line.error};
         else if (line.width == 0)
@@ -227,12 +226,11 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
             entry.reason += ", all of which fit: plain or paged textures would do";
         plan.entries.push_back(entry);
     }
-    plan.entries.push_back({"feedback",
-                            _hasFeedback ? Decision::Drawn : Decision::Dropped,
-                            _hasFeedback ? "a pixel stands for " +
-                                               std::to_string(_settings.feedback) + " x " +
-                                               std::to_string(_settings.feedback)
-                                         : "nothing has moved and all pages are there"});
+    plan.entries.push_back({"feedback", _hasFeedback ? Decision::Drawn : Decision::Dropped,
+                            _hasFeedback
+                                ? "a pixel stands for " + std::to_string(_settings.feedback) +
+                                      " x " + std::to_string(_settings.feedback)
+                                : "nothing has moved and all pages are there"});
     if (!_context)
         return;
     const VirtualPagerStatistics s = _context->getPager()->getStatistics();
@@ -259,8 +257,8 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
              {"sharp.seconds", s.secondsUntilSharp},
              {"sharp.frames", double(s.framesUntilSharp)},
              {"feedback", double(_hasFeedback)},
-             {"gpu.bytes", double(_context->getSlots().count()) *
-                               double(_context->getPager()->getPageBytes())}})
+             {"gpu.bytes",
+              double(_context->getSlots().count()) * double(_context->getPager()->getPageBytes())}})
         plan.counts[name] = value;
 }
 

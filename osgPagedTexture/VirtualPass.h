@@ -69,7 +69,7 @@ private:
     osg::ref_ptr<VirtualContext> _context; ///< Null where nothing can be shown.
     unsigned int _frameNumber = 0;
     double _seconds = 0.0;
-    bool _isFeedback = false; ///< What is drawn now.
+    bool _isFeedback = false;  ///< What is drawn now.
     std::vector<Codes> _codes; ///< By the numbers of leaves.
     std::map<std::array<const VirtualTexture*, Units>, std::uint32_t> _numbers;
     std::map<const VirtualTexture*, Code> _codeOf;

@@ -104,16 +104,15 @@ void VirtualPass::drawFeedback(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     over->setAttribute(new osg::Viewport(0, 0, width, height), Over);
     over->setAttribute(new osg::ColorMask, Over);
     over->setAttributeAndModes(new osg::Depth, Over);
-    for (const GLenum mode :
-         {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB,
-          GL_SCISSOR_TEST, GL_ALPHA_TEST})
+    for (const GLenum mode : {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP,
+                              GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, GL_SCISSOR_TEST, GL_ALPHA_TEST})
         over->setMode(mode, Never);
     const bool jitters = reduction > 1;
     const auto offset = [&](unsigned int base, int side)
     { return jitters ? float((2.0 * halton(1 + number % 64, base) - 1.0) / side) : 0.0f; };
-    over->addUniform(new osg::Uniform("osgPagedTexture_jitter",
-                                      osg::Vec2(offset(2, width), offset(3, height))),
-                     Over);
+    over->addUniform(
+        new osg::Uniform("osgPagedTexture_jitter", osg::Vec2(offset(2, width), offset(3, height))),
+        Over);
     over->addUniform(new osg::Uniform("osgPagedTexture_sharper",
                                       osg::Vec2(float(width) / float(std::max(1, viewport[2])),
                                                 float(number % 64))),
@@ -138,9 +137,10 @@ void VirtualPass::drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
         waitForPages(renderInfo, frame, view);
     else
         goOn(renderInfo, frame, view);
-    const bool isFading = !_settings.wait &&
-                          _seconds < _context->getLastArrival() + _settings.fadeSeconds;
-    _resources->setBusy(frame.getStage().getCamera(), _frameNumber, _hasFeedback || view.feedback->isOnItsWay() || isFading);
+    const bool isFading =
+        !_settings.wait && _seconds < _context->getLastArrival() + _settings.fadeSeconds;
+    _resources->setBusy(frame.getStage().getCamera(), _frameNumber,
+                        _hasFeedback || view.feedback->isOnItsWay() || isFading);
 }
 
 /// Pictures of all pixels that it takes until each of a surface's textures has had its turn in
@@ -162,8 +162,7 @@ unsigned int VirtualPass::wholePictures() const
     return most;
 }
 
-void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
-                       VirtualContext::View& view)
+void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame, VirtualContext::View& view)
 {
     osg::State& state = *renderInfo.getState();
     VirtualPager& pager = *_context->getPager();
@@ -226,8 +225,8 @@ void VirtualPass::waitForPages(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
         const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
         if (waited.count() > longestWait)
         {
-            OSG_WARN << "osgPagedTexture::VirtualScene: pages have not come for "
-                     << longestWait << " s; the frame is drawn without them" << std::endl;
+            OSG_WARN << "osgPagedTexture::VirtualScene: pages have not come for " << longestWait
+                     << " s; the frame is drawn without them" << std::endl;
             break;
         }
         pager.waitForLoads(0.05);

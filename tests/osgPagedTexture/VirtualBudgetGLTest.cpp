@@ -33,8 +33,8 @@ protected:
         const std::string store = _folder.file("atlas" + std::to_string(seed));
         if (!std::filesystem::exists(store))
             virtuals::buildStore(store, virtuals::makeLevels(2048, 2048, seed));
-        return virtuals::makeScene(
-            virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f), settings, false);
+        return virtuals::makeScene(virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f),
+                                   settings, false);
     }
 
     support::HeadlessViewer _viewer;
@@ -144,8 +144,7 @@ TEST_F(VirtualBudgetGLTest, severalTexturesAndUnitsShareTheSlots)
         const auto texture = [&](unsigned int seed) -> osg::ref_ptr<osg::Texture2D>
         {
             if (isVirtual)
-                return virtuals::makeVirtualTexture(_folder.file("t" + std::to_string(seed)))
-                    .get();
+                return virtuals::makeVirtualTexture(_folder.file("t" + std::to_string(seed))).get();
             return virtuals::makePlainTexture(virtuals::makeLevels(512, 512, seed));
         };
         osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -171,7 +170,8 @@ TEST_F(VirtualBudgetGLTest, thousandJumpsLeaveNothingBehind)
     OSGKITS_NEED_GL(_viewer);
     const auto scene = makeScene(slots(64) + ",cpu=2,upload=20");
     unsigned int seed = 7;
-    const auto next = [&seed] { return double((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0; };
+    const auto next = [&seed]
+    { return double((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0; };
     for (int jump = 0; jump < 1000; ++jump)
         _viewer.render(scene, lookFrom({8.0 * next() - 4.0, 0.0, 0.2 + 10.0 * next()}), 64, 48);
     EXPECT_LE(virtuals::countOf(*scene, "cpu.bytes"), 2.0 * 1048576.0);

@@ -15,10 +15,10 @@ namespace
 {
 
 const std::map<std::string, std::string> Changed = {
-    {"store", "a b,c'd.tiles"}, {"gpu", "64"},        {"cpu", "32"},        {"upload", "0.5"},
+    {"store", "a b,c'd.tiles"}, {"gpu", "64"},           {"cpu", "32"},       {"upload", "0.5"},
     {"threads", "3"},           {"compression", "none"}, {"quality", "fine"}, {"aniso", "8"},
-    {"feedback", "4"},          {"fade", "0"},        {"wait", "on"},       {"watch", "off"},
-    {"freeze", "on"},           {"show", "pages"},    {"graph", "on"},      {"keys", "off"}};
+    {"feedback", "4"},          {"fade", "0"},           {"wait", "on"},      {"watch", "off"},
+    {"freeze", "on"},           {"show", "pages"},       {"graph", "on"},     {"keys", "off"}};
 
 } // namespace
 
