@@ -31,8 +31,8 @@ struct SurfaceItem;
 /// counts; siblings inside of another kit each have theirs.
 enum class SurfaceRole : std::uint8_t
 {
-    Light,  ///< How surfaces are lit: SurfaceKey::kit.
-    Output, ///< What is written beside and after the colour: SurfaceKey::output.
+    Light,   ///< How surfaces are lit: SurfaceKey::kit.
+    Output,  ///< What is written beside and after the colour: SurfaceKey::output.
     Surface, ///< What surfaces look like instead of their own look: look().
     Texture  ///< What texture units give to a surface's own look: SurfaceKey::texture.
 };

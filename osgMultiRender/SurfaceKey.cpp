@@ -179,9 +179,8 @@ bool equal(const TextureKey& a, const TextureKey& b)
 {
     return a.target == b.target && a.environment == b.environment && a.baseFormat == b.baseFormat &&
            a.generation == b.generation && a.generated == b.generated && a.matrix == b.matrix &&
-           a.sampled == b.sampled &&
-           a.function == b.function && a.source == b.source && a.operand == b.operand &&
-           a.scale == b.scale;
+           a.sampled == b.sampled && a.function == b.function && a.source == b.source &&
+           a.operand == b.operand && a.scale == b.scale;
 }
 
 struct Hasher
@@ -208,8 +207,7 @@ bool SurfaceKey::operator==(const SurfaceKey& other) const
            colorMode == other.colorMode && colorSum == other.colorSum && flat == other.flat &&
            fog == other.fog && fogCoordinate == other.fogCoordinate && clip == other.clip &&
            lights == other.lights && kit == other.kit && output == other.output &&
-           texture == other.texture &&
-           program == other.program && instance == other.instance;
+           texture == other.texture && program == other.program && instance == other.instance;
 }
 
 std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
@@ -228,8 +226,9 @@ std::size_t SurfaceKeyHash::operator()(const SurfaceKey& key) const
     {
         if (!texture.target)
             continue;
-        for (std::uint8_t x : {texture.target, texture.environment, texture.baseFormat,
-                               texture.generation, texture.generated, texture.matrix, texture.sampled})
+        for (std::uint8_t x :
+             {texture.target, texture.environment, texture.baseFormat, texture.generation,
+              texture.generated, texture.matrix, texture.sampled})
             hash.add(x);
         hash.addAll(texture.function);
         hash.addAll(texture.source);

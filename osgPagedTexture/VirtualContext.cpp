@@ -28,8 +28,9 @@ SlotGrid SlotGrid::fit(std::uint64_t bytes, std::uint64_t pageBytes, int side, i
     SlotGrid grid;
     grid.side = side;
     const int most = std::max(1, maxSide / side);
-    const std::uint64_t wanted = std::clamp<std::uint64_t>(
-        bytes / std::max<std::uint64_t>(1, pageBytes), 1, std::uint64_t(most) * std::uint64_t(most));
+    const std::uint64_t wanted =
+        std::clamp<std::uint64_t>(bytes / std::max<std::uint64_t>(1, pageBytes), 1,
+                                  std::uint64_t(most) * std::uint64_t(most));
     grid.columns = std::min(most, int(std::ceil(std::sqrt(double(wanted)))));
     grid.rows = std::clamp(int(wanted / std::uint64_t(grid.columns)), 1, most);
     return grid;
@@ -168,8 +169,8 @@ Pixels VirtualContext::pictureOf(std::uint32_t number, const PageTexels& texels)
         page = decodeBlocks(texels, format, side, side);
     Pixels picture(int(grid.getWidth(last)), int(grid.getHeight(last)), page.channels);
     for (int y = 0; y < picture.height; ++y)
-        std::copy_n(page.row(border + y) + border * page.channels,
-                    picture.width * picture.channels, picture.row(picture.height - 1 - y));
+        std::copy_n(page.row(border + y) + border * page.channels, picture.width * picture.channels,
+                    picture.row(picture.height - 1 - y));
     return picture;
 }
 

@@ -47,6 +47,8 @@ public:
     /// The texture shows the pager's of this number.
     void add(std::uint32_t number, const VirtualTexture& texture);
 
+    const TileGrid& getGrid(std::uint32_t number) const { return _shown.at(number).grid; }
+
     /// Pages and tables that the pager has for it; of pages about `milliseconds`' worth. Returns
     /// whether that was all. `seconds` is the time.
     bool upload(osg::State& state, double milliseconds, double seconds);
@@ -54,13 +56,13 @@ public:
     /// What a view remembers from frame to frame.
     struct View
     {
-        /// Pictures of a view at rest after which its needs are known.
-        static constexpr int CalmPictures = 8;
+        /// Reduced pictures of a view at rest, before those of all its pixels.
+        static constexpr unsigned int CalmPictures = 8;
 
         std::unique_ptr<VirtualFeedback> feedback;
-        unsigned int number = 0;      ///< With the pager.
-        std::uint64_t seen = 0;       ///< Hash of what was drawn.
-        unsigned int calmFrames = 0;  ///< Feedback pictures since it has changed.
+        unsigned int number = 0;     ///< With the pager.
+        std::uint64_t seen = 0;      ///< Hash of what was drawn.
+        unsigned int calmFrames = 0; ///< Feedback pictures since it has changed.
         unsigned int lastUse = 0;
         bool isReported = false;
     };

@@ -28,9 +28,9 @@ std::vector<PageNeed> needsOf(const std::vector<std::uint16_t>& texels)
     {
         const std::uint16_t* texel = texels.data() + i;
         if (i == 0 || !std::equal(texel, texel + channels, texel - channels))
-            count = texel[0] == 0 ? nullptr
-                                  : &pixels[{std::uint32_t(texel[0] - 1), texel[1], texel[2],
-                                             texel[3]}];
+            count = texel[0] == 0
+                        ? nullptr
+                        : &pixels[{std::uint32_t(texel[0] - 1), texel[1], texel[2], texel[3]}];
         if (count)
             ++*count;
     }
@@ -104,36 +104,30 @@ bool VirtualFeedback::start(osg::State& state)
 
 bool VirtualFeedback::take(osg::State& state, std::vector<PageNeed>& needs)
 {
+    if (_ways.empty())
+        return false;
     const auto* gl = state.get<osg::GLExtensions>();
-    bool hasCome = false;
-    std::vector<std::uint16_t> texels;
-    while (!_ways.empty())
+    Way& way = _ways.front();
+    if (!way.fence && way.age++ < surelyThere)
+        return false;
+    if (way.fence &&
+        gl->glClientWaitSync(way.fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0) == GL_TIMEOUT_EXPIRED)
+        return false;
+    if (way.fence)
+        gl->glDeleteSync(way.fence);
+    std::vector<std::uint16_t> texels(std::size_t(way.width) * std::size_t(way.height) * channels);
+    // Not by the buffer's own functions, which allocate it anew.
+    if (const osg::GLBufferObject* buffer = way.buffer->getGLBufferObject(_contextID))
     {
-        Way& way = _ways.front();
-        if (!way.fence && way.age++ < surelyThere)
-            break;
-        if (way.fence && gl->glClientWaitSync(way.fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0) ==
-                             GL_TIMEOUT_EXPIRED)
-            break;
-        if (way.fence)
-            gl->glDeleteSync(way.fence);
-        texels.resize(std::size_t(way.width) * std::size_t(way.height) * channels);
-        // Not by the buffer's own functions, which allocate it anew.
-        if (const osg::GLBufferObject* buffer = way.buffer->getGLBufferObject(_contextID))
-        {
-            gl->glBindBuffer(GL_PIXEL_PACK_BUFFER_ARB, buffer->getGLObjectID());
-            gl->glGetBufferSubData(GL_PIXEL_PACK_BUFFER_ARB, 0,
-                                   GLsizeiptr(texels.size() * sizeof(std::uint16_t)),
-                                   texels.data());
-            gl->glBindBuffer(GL_PIXEL_PACK_BUFFER_ARB, 0);
-            hasCome = true;
-        }
-        _free.push_back(way.buffer);
-        _ways.pop_front();
+        gl->glBindBuffer(GL_PIXEL_PACK_BUFFER_ARB, buffer->getGLObjectID());
+        gl->glGetBufferSubData(GL_PIXEL_PACK_BUFFER_ARB, 0,
+                               GLsizeiptr(texels.size() * sizeof(std::uint16_t)), texels.data());
+        gl->glBindBuffer(GL_PIXEL_PACK_BUFFER_ARB, 0);
     }
-    if (hasCome)
-        needs = needsOf(texels);
-    return hasCome;
+    _free.push_back(way.buffer);
+    _ways.pop_front();
+    needs = needsOf(texels);
+    return true;
 }
 
 std::vector<PageNeed> VirtualFeedback::readNow() const

@@ -29,7 +29,7 @@ public:
     /// Sends what is bound on its way; false where too many are, and this one does not count.
     bool start(osg::State& state);
 
-    /// What has come since the last call, the newest; false where nothing has.
+    /// The next picture that has come; false where none has. Called until then in each frame.
     bool take(osg::State& state, std::vector<PageNeed>& needs);
 
     /// What is bound, at once.

@@ -53,21 +53,20 @@ void VirtualPass::begin(osg::RenderInfo& renderInfo, const SurfaceFrame& frame)
         _context = _resources->contextOf(state);
 }
 
-/// Row of the table, taps and wrap modes; -1 where there is nothing to sample.
-int VirtualPass::codeOf(const VirtualTexture& texture)
+VirtualPass::Code VirtualPass::codeOf(const VirtualTexture& texture)
 {
-    const auto [found, isNew] = _codeOf.emplace(&texture, -1);
+    const auto [found, isNew] = _codeOf.emplace(&texture, Code());
     if (!isNew)
         return found->second;
-    const int row = _resources->numberOf(texture);
-    if (row < 0 || row > int(VirtualTables::MaxTextures))
-        return -1;
-    _context->add(std::uint32_t(row), texture);
+    const int number = _resources->numberOf(texture);
+    if (number < 0 || number > int(VirtualTables::MaxTextures))
+        return {};
+    _context->add(std::uint32_t(number), texture);
     const int taps = _settings.anisotropy
                          ? int(_settings.anisotropy)
                          : std::clamp(int(texture.getMaxAnisotropy() + 0.5f), 1, 16);
-    found->second = row | taps << 16 | wrapOf(texture.getWrap(osg::Texture::WRAP_S)) << 24 |
-                    wrapOf(texture.getWrap(osg::Texture::WRAP_T)) << 26;
+    found->second = {number, taps | wrapOf(texture.getWrap(osg::Texture::WRAP_S)) << 8 |
+                                 wrapOf(texture.getWrap(osg::Texture::WRAP_T)) << 10};
     return found->second;
 }
 
@@ -84,8 +83,8 @@ void VirtualPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf&
             key.textures[unit].target == TextureKey::Target2D
                 ? dynamic_cast<const VirtualTexture*>(state.get(unit, SurfaceState::Texture))
                 : nullptr;
-        const int code = texture ? codeOf(*texture) : -1;
-        if (code < 0)
+        const Code code = texture ? codeOf(*texture) : Code();
+        if (code.number < 0)
             continue;
         textures[unit] = texture;
         codes[unit] = code;
@@ -156,26 +155,57 @@ const osg::StateSet* VirtualPass::startRun()
 void VirtualPass::apply(osg::RenderInfo& renderInfo, const osgMultiRender::SurfaceVariant& variant,
                         const osgUtil::RenderLeaf&, std::uint32_t number)
 {
-    static const unsigned int texturesName = osg::Uniform::getNameID("osgPagedTexture_textures");
-    static const unsigned int slotsName = osg::Uniform::getNameID("osgPagedTexture_slots");
-    static const unsigned int texelName = osg::Uniform::getNameID("osgPagedTexture_texel");
-    static const unsigned int timeName = osg::Uniform::getNameID("osgPagedTexture_time");
+    static const unsigned int gridsName = osg::Uniform::getNameID("osgPagedTexture_grids");
+    static const unsigned int rowsName = osg::Uniform::getNameID("osgPagedTexture_rows");
     if (!_context || !(variant.getKey().texture & Sampled) || number >= _codes.size())
         return;
     const auto& program = *renderInfo.getState()->getLastAppliedProgramObject();
     const auto* gl = renderInfo.getState()->get<osg::GLExtensions>();
-    gl->glUniform4iv(program.getUniformLocation(texturesName), 1, _codes[number].data());
-    if (!_sent.insert(&variant).second)
-        return;
+    GLfloat grids[Units][4] = {};
+    GLint rows[Units][4] = {};
+    for (unsigned int unit = 0; unit < Units; ++unit)
+    {
+        const Code& code = _codes[number][unit];
+        if (code.number < 0)
+            continue;
+        const TileGrid& grid = _context->getGrid(std::uint32_t(code.number));
+        const GLfloat sides[4] = {GLfloat(grid.getWidth()), GLfloat(grid.getHeight()),
+                                  GLfloat(grid.getPayload()), GLfloat(grid.getBorder())};
+        const GLint row[4] = {code.number,
+                              _context->getTables().finestOf(std::uint32_t(code.number)),
+                              pageLevels(grid) - 1, code.sampling};
+        std::copy(sides, sides + 4, grids[unit]);
+        std::copy(row, row + 4, rows[unit]);
+    }
+    gl->glUniform4fv(program.getUniformLocation(gridsName), Units, grids[0]);
+    gl->glUniform4iv(program.getUniformLocation(rowsName), Units, rows[0]);
+    if (_sent.insert(&variant).second)
+        sendFrame(*renderInfo.getState());
+}
+
+/// What holds for all leaves of a program.
+void VirtualPass::sendFrame(osg::State& state) const
+{
+    static const unsigned int slotsName = osg::Uniform::getNameID("osgPagedTexture_slots");
+    static const unsigned int timeRowName = osg::Uniform::getNameID("osgPagedTexture_timeRow");
+    static const unsigned int showName = osg::Uniform::getNameID("osgPagedTexture_show");
+    static const unsigned int texelName = osg::Uniform::getNameID("osgPagedTexture_texel");
+    static const unsigned int timeName = osg::Uniform::getNameID("osgPagedTexture_time");
+    const auto& program = *state.getLastAppliedProgramObject();
+    const auto* gl = state.get<osg::GLExtensions>();
     const SlotGrid& slots = _context->getSlots();
     const UploadTexture& pages = _context->getPages();
-    gl->glUniform4i(program.getUniformLocation(slotsName), slots.columns, slots.side,
-                    _context->getTables().getTimeRow(), int(_settings.show));
+    gl->glUniform3f(program.getUniformLocation(slotsName), float(slots.columns),
+                    1.0f / float(slots.columns), float(slots.side));
+    gl->glUniform1i(program.getUniformLocation(timeRowName), _context->getTables().getTimeRow());
+    gl->glUniform1i(program.getUniformLocation(showName), int(_settings.show));
     gl->glUniform2f(program.getUniformLocation(texelName), 1.0f / float(pages.getTextureWidth()),
                     1.0f / float(pages.getTextureHeight()));
-    const bool fades = _settings.fadeSeconds > 0.0 && !_settings.wait;
+    // While nothing fades, no pixel asks.
+    const bool fades =
+        !_settings.wait && _seconds < _context->getLastArrival() + _settings.fadeSeconds;
     gl->glUniform2f(program.getUniformLocation(timeName), float(_seconds),
-                    fades ? float(1.0 / _settings.fadeSeconds) : 1e9f);
+                    fades ? float(1.0 / _settings.fadeSeconds) : 0.0f);
 }
 
 void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
@@ -183,11 +213,10 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
     using Decision = osgMultiRender::PlanEntry::Decision;
     for (const VirtualResources::Line& line : _resources->getLines())
     {
-        osgMultiRender::PlanEntry entry{"virtual texture '" + line.file + "' " +
-                                            std::to_string(line.width) + "x" +
-                                            std::to_string(line.height),
-                                        Decision::Drawn,
-                                        std::to_string(line.pages) + " pages on all levels"};
+        osgMultiRender::PlanEntry entry{
+            "virtual texture '" + line.file + "' " + std::to_string(line.width) + "x" +
+                std::to_string(line.height),
+            Decision::Drawn, std::to_string(line.pages) + " pages on all levels"};
         if (!line.error.empty())
             entry = {"virtual texture '" + line.file + "'", Decision::Dropped, line.error};
         else if (line.width == 0)
@@ -197,12 +226,11 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
             entry.reason += ", all of which fit: plain or paged textures would do";
         plan.entries.push_back(entry);
     }
-    plan.entries.push_back({"feedback",
-                            _hasFeedback ? Decision::Drawn : Decision::Dropped,
-                            _hasFeedback ? "a pixel stands for " +
-                                               std::to_string(_settings.feedback) + " x " +
-                                               std::to_string(_settings.feedback)
-                                         : "nothing has moved and all pages are there"});
+    plan.entries.push_back({"feedback", _hasFeedback ? Decision::Drawn : Decision::Dropped,
+                            _hasFeedback
+                                ? "a pixel stands for " + std::to_string(_settings.feedback) +
+                                      " x " + std::to_string(_settings.feedback)
+                                : "nothing has moved and all pages are there"});
     if (!_context)
         return;
     const VirtualPagerStatistics s = _context->getPager()->getStatistics();
@@ -229,8 +257,8 @@ void VirtualPass::fillPlan(osgMultiRender::Plan& plan) const
              {"sharp.seconds", s.secondsUntilSharp},
              {"sharp.frames", double(s.framesUntilSharp)},
              {"feedback", double(_hasFeedback)},
-             {"gpu.bytes", double(_context->getSlots().count()) *
-                               double(_context->getPager()->getPageBytes())}})
+             {"gpu.bytes",
+              double(_context->getSlots().count()) * double(_context->getPager()->getPageBytes())}})
         plan.counts[name] = value;
 }
 

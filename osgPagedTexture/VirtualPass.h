@@ -43,14 +43,20 @@ private:
         Cutout = 1u << 5,   ///< Of feedback: what is transparent hides nothing.
         Sheer = 1u << 6     ///< Of feedback: every other pixel hides what is behind.
     };
-    struct Codes : std::array<int, Units> ///< What virtual.glsl calls osgPagedTexture_textures.
+    /// How a unit is sampled.
+    struct Code
     {
+        int number = -1;  ///< With the pager, and the table's row; -1: not by us.
+        int sampling = 0; ///< Taps and wrap modes as in virtual.glsl.
     };
+    using Codes = std::array<Code, Units>;
 
-    int codeOf(const VirtualTexture& texture);
+    Code codeOf(const VirtualTexture& texture);
+    void sendFrame(osg::State& state) const;
     bool rekey(const osgMultiRender::SurfaceItem& item, osgMultiRender::SurfaceKey& key) const;
     void drawFeedback(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
                       VirtualContext::View& view, unsigned int reduction, unsigned int number);
+    unsigned int wholePictures() const;
     std::uint64_t hashOf(osgMultiRender::SurfaceFrame& frame) const;
     void waitForPages(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,
                       VirtualContext::View& view);
@@ -63,10 +69,10 @@ private:
     osg::ref_ptr<VirtualContext> _context; ///< Null where nothing can be shown.
     unsigned int _frameNumber = 0;
     double _seconds = 0.0;
-    bool _isFeedback = false; ///< What is drawn now.
+    bool _isFeedback = false;  ///< What is drawn now.
     std::vector<Codes> _codes; ///< By the numbers of leaves.
     std::map<std::array<const VirtualTexture*, Units>, std::uint32_t> _numbers;
-    std::map<const VirtualTexture*, int> _codeOf;
+    std::map<const VirtualTexture*, Code> _codeOf;
     std::set<const osgMultiRender::SurfaceVariant*> _sent; ///< Have what holds for all leaves.
     bool _hasFeedback = false;
 };

@@ -104,16 +104,15 @@ void VirtualPass::drawFeedback(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     over->setAttribute(new osg::Viewport(0, 0, width, height), Over);
     over->setAttribute(new osg::ColorMask, Over);
     over->setAttributeAndModes(new osg::Depth, Over);
-    for (const GLenum mode :
-         {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB,
-          GL_SCISSOR_TEST, GL_ALPHA_TEST})
+    for (const GLenum mode : {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP,
+                              GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, GL_SCISSOR_TEST, GL_ALPHA_TEST})
         over->setMode(mode, Never);
     const bool jitters = reduction > 1;
     const auto offset = [&](unsigned int base, int side)
     { return jitters ? float((2.0 * halton(1 + number % 64, base) - 1.0) / side) : 0.0f; };
-    over->addUniform(new osg::Uniform("osgPagedTexture_jitter",
-                                      osg::Vec2(offset(2, width), offset(3, height))),
-                     Over);
+    over->addUniform(
+        new osg::Uniform("osgPagedTexture_jitter", osg::Vec2(offset(2, width), offset(3, height))),
+        Over);
     over->addUniform(new osg::Uniform("osgPagedTexture_sharper",
                                       osg::Vec2(float(width) / float(std::max(1, viewport[2])),
                                                 float(number % 64))),
@@ -138,18 +137,37 @@ void VirtualPass::drawBefore(osg::RenderInfo& renderInfo, SurfaceFrame& frame)
         waitForPages(renderInfo, frame, view);
     else
         goOn(renderInfo, frame, view);
-    const bool isFading = !_settings.wait &&
-                          _seconds < _context->getLastArrival() + _settings.fadeSeconds;
-    _resources->setBusy(frame.getStage().getCamera(), _frameNumber, _hasFeedback || view.feedback->isOnItsWay() || isFading);
+    const bool isFading =
+        !_settings.wait && _seconds < _context->getLastArrival() + _settings.fadeSeconds;
+    _resources->setBusy(frame.getStage().getCamera(), _frameNumber,
+                        _hasFeedback || view.feedback->isOnItsWay() || isFading);
 }
 
-void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
-                       VirtualContext::View& view)
+/// Pictures of all pixels that it takes until each of a surface's textures has had its turn in
+/// each, and some taps along footprints have.
+unsigned int VirtualPass::wholePictures() const
+{
+    unsigned int most = 1;
+    for (const Codes& codes : _codes)
+    {
+        unsigned int units = 0;
+        bool hasTaps = false;
+        for (const Code& code : codes)
+        {
+            units += code.number >= 0;
+            hasTaps = hasTaps || (code.sampling & 255) > 1;
+        }
+        most = std::max(most, hasTaps ? std::max(2u, units) : units);
+    }
+    return most;
+}
+
+void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame, VirtualContext::View& view)
 {
     osg::State& state = *renderInfo.getState();
     VirtualPager& pager = *_context->getPager();
     std::vector<PageNeed> needs;
-    if (view.feedback->take(state, needs))
+    while (view.feedback->take(state, needs))
         pager.report(view.number, needs);
     pager.advance(_resources->step(_frameNumber));
     _context->upload(state, _settings.uploadMilliseconds, _seconds);
@@ -160,13 +178,15 @@ void VirtualPass::goOn(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     view.seen = seen;
     if (_codes.empty())
         return;
-    if (view.calmFrames >= unsigned(VirtualContext::View::CalmPictures))
+    // The last ones look at each pixel, for each unit: slivers of pages fall between those of the
+    // others.
+    const unsigned int whole = wholePictures();
+    if (view.calmFrames >= VirtualContext::View::CalmPictures + whole)
         return;
     const osgMultiRender::FramebufferVisit visit(state);
-    // The last one looks at each pixel: slivers of pages fall between those of the others.
-    const bool isLast = view.calmFrames + 1 == unsigned(VirtualContext::View::CalmPictures);
-    drawFeedback(renderInfo, frame, view, isLast ? 1 : _settings.feedback,
-                 view.calmFrames + _frameNumber);
+    const bool isWhole = view.calmFrames >= VirtualContext::View::CalmPictures;
+    drawFeedback(renderInfo, frame, view, isWhole ? 1 : _settings.feedback,
+                 isWhole ? view.calmFrames : _frameNumber);
     view.calmFrames += view.feedback->start(state);
 }
 
@@ -205,8 +225,8 @@ void VirtualPass::waitForPages(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
         const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
         if (waited.count() > longestWait)
         {
-            OSG_WARN << "osgPagedTexture::VirtualScene: pages have not come for "
-                     << longestWait << " s; the frame is drawn without them" << std::endl;
+            OSG_WARN << "osgPagedTexture::VirtualScene: pages have not come for " << longestWait
+                     << " s; the frame is drawn without them" << std::endl;
             break;
         }
         pager.waitForLoads(0.05);

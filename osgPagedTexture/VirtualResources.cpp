@@ -84,12 +84,12 @@ void VirtualResources::makePager(osg::State& state)
     settings.cacheBytes = _settings.cpuBytes();
     settings.threads = _settings.threads;
     settings.watchSeconds = _settings.watch ? 1.0 : 0.0;
-    settings.rememberReports = VirtualContext::View::CalmPictures;
+    settings.rememberReports = int(VirtualContext::View::CalmPictures);
     side = pageSideOf(grids.front(), settings.format);
     GLint maxSide = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &maxSide);
-    _slots = SlotGrid::fit(_settings.gpuBytes(), levelBytes(settings.format, side, side), side,
-                           maxSide);
+    _slots =
+        SlotGrid::fit(_settings.gpuBytes(), levelBytes(settings.format, side, side), side, maxSide);
     settings.slots = _slots.count();
     _pager = std::make_shared<VirtualPager>(settings);
     _pager->setFrozen(_settings.freeze);
@@ -190,11 +190,11 @@ void VirtualResources::say(double seconds)
     _saidAt = seconds;
     const VirtualPagerStatistics s = _pager->getStatistics();
     OSG_NOTICE << "osgPagedTexture::VirtualScene: " << s.usedSlots << " of " << s.slots
-               << " slots, " << s.neededPages << " pages needed, " << s.missingPages
-               << " missing, " << s.loadingPages << " loading, " << s.uploadedPages
-               << " uploaded (" << s.uploadedBytes / 1048576 << " MiB), cache hits " << s.cacheHits
-               << " of " << s.cacheHits + s.cacheMisses << ", last sharp after "
-               << s.secondsUntilSharp << " s" << std::endl;
+               << " slots, " << s.neededPages << " pages needed, " << s.missingPages << " missing, "
+               << s.loadingPages << " loading, " << s.uploadedPages << " uploaded ("
+               << s.uploadedBytes / 1048576 << " MiB), cache hits " << s.cacheHits << " of "
+               << s.cacheHits + s.cacheMisses << ", last sharp after " << s.secondsUntilSharp
+               << " s" << std::endl;
 }
 
 void VirtualResources::setBusy(const osg::Camera* camera, unsigned int frame, bool isBusy)
@@ -213,9 +213,8 @@ bool VirtualResources::isAtRest() const
     if (!_pager || !_pager->isAtRest())
         return !_pager && std::all_of(_stores.begin(), _stores.end(),
                                       [](const auto& each) { return each.second.isTried; });
-    return !_busy.empty() &&
-           std::none_of(_busy.begin(), _busy.end(),
-                        [](const auto& each) { return each.second.isBusy; });
+    return !_busy.empty() && std::none_of(_busy.begin(), _busy.end(),
+                                          [](const auto& each) { return each.second.isBusy; });
 }
 
 std::vector<VirtualResources::Line> VirtualResources::getLines() const

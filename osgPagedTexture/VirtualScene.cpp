@@ -21,8 +21,8 @@ namespace
 class Installer : public osg::NodeVisitor
 {
 public:
-    explicit Installer(const std::string& store) : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN),
-                                                   _store(store)
+    explicit Installer(const std::string& store)
+        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _store(store)
     {
     }
 
@@ -125,7 +125,8 @@ void VirtualScene::install(const osgDB::Options* options)
     for (const auto& each : installer.textures)
     {
         VirtualTexture& texture = *each.second;
-        // One from a file was found when that was read. What can't be read is said when it is drawn.
+        // One from a file was found when that was read. What can't be read is said when it is
+        // drawn.
         if (texture.getFile() != texture.getStore() || texture.find(options))
             texture.loadImage();
         _resources->add(texture);

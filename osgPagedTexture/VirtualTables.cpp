@@ -58,6 +58,12 @@ void VirtualTables::apply(const TablePatch& patch)
     touch(table.row + patch.rect.y, patch.rect.height);
 }
 
+int VirtualTables::finestOf(std::uint32_t texture) const
+{
+    const Table& table = _tables.at(texture);
+    return table.layout ? table.layout->finest : pageLevels(table.grid) - 1;
+}
+
 std::uint32_t VirtualTables::coarsestOf(std::uint32_t texture) const
 {
     const auto found = _tables.find(texture);
@@ -131,12 +137,12 @@ void VirtualTables::writeHeader(std::uint32_t number, const Table& table)
         layout.finest = pageLevels(table.grid) - 1;
     header[0] = std::uint32_t(table.grid.getWidth());
     header[1] = std::uint32_t(table.grid.getHeight());
-    header[2] =
-        std::uint32_t(table.grid.getPayload()) | std::uint32_t(table.grid.getBorder()) << 24;
+    header[2] = std::uint32_t(table.grid.getPayload()) | std::uint32_t(table.grid.getBorder())
+                                                             << 24;
     header[3] = std::uint32_t(layout.finest) | std::uint32_t(layout.coarsest()) << 8;
     for (std::size_t i = 0; i < layout.levels.size(); ++i)
-        header[4 + i] = std::uint32_t(layout.levels[i].x) |
-                        std::uint32_t(layout.levels[i].y + row) << 16;
+        header[4 + i] = std::uint32_t(layout.levels[i].x) | std::uint32_t(layout.levels[i].y + row)
+                                                                << 16;
     touch(int(number), 1);
 }
 
@@ -160,8 +166,8 @@ void VirtualTables::upload(osg::State& state)
         _texture->getTextureHeight() != _height)
     {
         constexpr GLenum r32ui = 0x8236, redInteger = 0x8D94;
-        _texture = new UploadTexture({r32ui, redInteger, GL_UNSIGNED_INT, false, false}, _width,
-                                     _height);
+        _texture =
+            new UploadTexture({r32ui, redInteger, GL_UNSIGNED_INT, false, false}, _width, _height);
         touch(0, _height);
     }
     if (_lastTouched < _firstTouched)

@@ -27,6 +27,8 @@ public:
 
     void add(std::uint32_t texture, const TileGrid& grid);
     void apply(const TablePatch& patch);
+    /// The finest level in the texture's table.
+    int finestOf(std::uint32_t texture) const;
     /// Where the texture's coarsest page is, as PageEntry; Empty before it is there.
     std::uint32_t coarsestOf(std::uint32_t texture) const;
     /// The page of a slot came at this time, in seconds.

@@ -3,22 +3,24 @@
 
 uniform usampler2D osgPagedTexture_table;
 uniform sampler2D osgPagedTexture_pages;
-// Of each unit: the row of the table that describes its texture (bits 0 to 15), taps along the
-// longer side of a pixel's footprint (16 to 23), wrap modes of s and t (24, 26).
-uniform ivec4 osgPagedTexture_textures;
-// Slots in a row of the physical texture, texels of a slot's side, the table's row with the times
-// of slots, what is shown instead of texels.
-uniform ivec4 osgPagedTexture_slots;
-uniform vec2 osgPagedTexture_texel; // Of the physical texture.
-uniform vec2 osgPagedTexture_time;  // Seconds, and how much of fading in is done in one.
+// Of each unit's texture: width and height of level 0, payload and border of a page, in texels.
+uniform vec4 osgPagedTexture_grids[4];
+// Its row of the table, the finest level there, the last level, and how it is sampled: taps along
+// the longer side of a pixel's footprint (bits 0 to 7), wrap modes of s and t (8, 10).
+uniform ivec4 osgPagedTexture_rows[4];
+// Slots in a row of the physical texture and its inverse, texels of a slot's side.
+uniform vec3 osgPagedTexture_slots;
+uniform int osgPagedTexture_timeRow; // Of the table: when the pages of slots came.
+uniform int osgPagedTexture_show;    // What is shown instead of texels.
+uniform vec2 osgPagedTexture_texel;  // Of the physical texture.
+uniform vec2 osgPagedTexture_time; // Seconds, and how much of fading in is done in one; 0: all is.
 
 struct osgPagedTexture_Grid
 {
     int row;
-    ivec2 size; // Texels of level 0.
-    vec2 texels;
-    int payload;
-    int border;
+    vec2 texels; // Of level 0.
+    float payload;
+    float border;
     int finest; // Of the table: what is finer is not there.
     int last;   // A single page.
     int taps;
@@ -34,20 +36,16 @@ uint osgPagedTexture_word(int x, int y)
 
 osgPagedTexture_Grid osgPagedTexture_grid(int unit)
 {
-    int code = osgPagedTexture_textures[unit];
-    osgPagedTexture_Grid grid;
-    grid.row = code & 65535;
-    grid.taps = (code >> 16) & 255;
-    grid.wrap = ivec2((code >> 24) & 3, (code >> 26) & 3);
-    grid.size = ivec2(osgPagedTexture_word(0, grid.row), osgPagedTexture_word(1, grid.row));
-    grid.texels = vec2(grid.size);
-    uint sides = osgPagedTexture_word(2, grid.row);
-    uint levels = osgPagedTexture_word(3, grid.row);
-    grid.payload = int(sides & 0xffffffu);
-    grid.border = int(sides >> 24);
-    grid.finest = int(levels & 255u);
-    grid.last = int(levels >> 8);
-    return grid;
+    vec4 sides = osgPagedTexture_grids[unit];
+    ivec4 row = osgPagedTexture_rows[unit];
+    return osgPagedTexture_Grid(row.x, sides.xy, sides.z, sides.w, row.y, row.z, row.w & 255,
+                                ivec2((row.w >> 8) & 3, (row.w >> 10) & 3));
+}
+
+// 2^-level.
+float osgPagedTexture_scale(int level)
+{
+    return intBitsToFloat((127 - level) << 23);
 }
 
 // 0 clamps to the edge, 1 repeats, 2 mirrors.
@@ -60,28 +58,26 @@ float osgPagedTexture_wrap(int mode, float x)
     return clamp(x, 0.0, 1.0);
 }
 
-// From the top left corner, in 0 to 1.
+// As texels of level 0 from the top left corner. The last half texel shows what its beginning does,
+// and its end would count as the next page.
 vec2 osgPagedTexture_place(osgPagedTexture_Grid grid, vec2 coord)
 {
-    return vec2(osgPagedTexture_wrap(grid.wrap.x, coord.x),
-                1.0 - osgPagedTexture_wrap(grid.wrap.y, coord.y));
+    vec2 place = vec2(osgPagedTexture_wrap(grid.wrap.x, coord.x),
+                      1.0 - osgPagedTexture_wrap(grid.wrap.y, coord.y));
+    return min(place * grid.texels, grid.texels - 0.5);
 }
 
-ivec2 osgPagedTexture_pageAt(osgPagedTexture_Grid grid, vec2 place, int level)
+vec2 osgPagedTexture_pageAt(osgPagedTexture_Grid grid, vec2 place, int level)
 {
-    ivec2 pages = (((grid.size - 1) >> level) + grid.payload) / grid.payload;
-    vec2 texel = place * grid.texels * exp2(-float(level));
-    return clamp(ivec2(texel / float(grid.payload)), ivec2(0), pages - 1);
+    return floor(place * (osgPagedTexture_scale(level) / grid.payload));
 }
 
-// Where the content of a place is on a level: the level that is there in the upper 8 bits, its slot
-// below.
-uint osgPagedTexture_entry(osgPagedTexture_Grid grid, vec2 place, int level)
+// Where the content of a page is: the level that is there in the upper 8 bits, its slot below.
+uint osgPagedTexture_entry(osgPagedTexture_Grid grid, vec2 page, int level)
 {
-    level = max(level, grid.finest);
     uint origin = osgPagedTexture_word(4 + level - grid.finest, grid.row);
-    ivec2 page = osgPagedTexture_pageAt(grid, place, level);
-    return osgPagedTexture_word(int(origin & 0xffffu) + page.x, int(origin >> 16) + page.y);
+    return osgPagedTexture_word(int(origin & 0xffffu) + int(page.x),
+                                int(origin >> 16) + int(page.y));
 }
 
 vec3 osgPagedTexture_levelColor(uint level)
@@ -91,34 +87,39 @@ vec3 osgPagedTexture_levelColor(uint level)
     return colors[min(level, 5u)];
 }
 
-vec4 osgPagedTexture_fetch(osgPagedTexture_Grid grid, vec2 place, uint entry)
+// `page` is of `level`, and its content that of the entry.
+vec4 osgPagedTexture_fetch(osgPagedTexture_Grid grid, vec2 place, vec2 page, int level, uint entry)
 {
-    int level = int(entry >> 24);
-    int slot = int(entry & 0xffffffu);
-    vec2 page = vec2(osgPagedTexture_pageAt(grid, place, level));
-    vec2 inPage = place * grid.texels * exp2(-float(level)) - page * float(grid.payload);
+    int there = int(entry >> 24);
+    float slot = float(entry & 0xffffffu);
+    // Not found anew from the place, which rounding may put beyond a border.
+    vec2 shown = floor(page * osgPagedTexture_scale(there - level));
+    vec2 inPage = place * osgPagedTexture_scale(there) - shown * grid.payload;
     // Half a texel inside of what the page has: beyond it lies another one's.
-    vec2 most = vec2(float(grid.payload + grid.border) - 0.5);
-    vec2 texel = clamp(inPage, vec2(0.5 - float(grid.border)), most) + float(grid.border);
-    vec2 origin = vec2(slot % osgPagedTexture_slots.x, slot / osgPagedTexture_slots.x);
+    vec2 texel = clamp(inPage, vec2(0.5 - grid.border), vec2(grid.payload + grid.border - 0.5));
+    float slotRow = floor((slot + 0.5) * osgPagedTexture_slots.y);
+    vec2 origin = vec2(slot - slotRow * osgPagedTexture_slots.x, slotRow) * osgPagedTexture_slots.z;
     vec4 color = textureLod(osgPagedTexture_pages,
-                            (origin * float(osgPagedTexture_slots.y) + texel) *
-                                osgPagedTexture_texel, 0.0);
-    if (osgPagedTexture_slots.w == 0)
+                            (origin + texel + grid.border) * osgPagedTexture_texel, 0.0);
+    if (osgPagedTexture_show == 0)
         return color;
-    if (osgPagedTexture_slots.w == 1)
-        return vec4(color.rgb * osgPagedTexture_levelColor(uint(level)), color.a);
-    vec2 inside = min(inPage, float(grid.payload) - inPage);
-    return min(inside.x, inside.y) < 1.0 ? vec4(osgPagedTexture_levelColor(uint(level)), color.a)
-                                         : color;
+    vec3 levelColor = osgPagedTexture_levelColor(uint(there));
+    if (osgPagedTexture_show == 1)
+        return vec4(color.rgb * levelColor, color.a);
+    vec2 inside = min(inPage, grid.payload - inPage);
+    return min(inside.x, inside.y) < 1.0 ? vec4(levelColor, color.a) : color;
 }
 
-// One level, of what is there.
-vec4 osgPagedTexture_tap(osgPagedTexture_Grid grid, sampler2D own, vec2 coord, vec2 place, int level)
+// How much of the page in a slot has faded in.
+float osgPagedTexture_faded(uint entry)
 {
-    uint entry = osgPagedTexture_entry(grid, place, level);
-    return entry >> 24 == osgPagedTexture_Empty ? textureLod(own, coord, 0.0)
-                                                : osgPagedTexture_fetch(grid, place, entry);
+    if (osgPagedTexture_time.y <= 0.0)
+        return 1.0;
+    int slot = int(entry & 0xffffffu);
+    int width = textureSize(osgPagedTexture_table, 0).x;
+    uint since = osgPagedTexture_word(slot % width, osgPagedTexture_timeRow + slot / width);
+    return clamp((osgPagedTexture_time.x - uintBitsToFloat(since)) * osgPagedTexture_time.y, 0.0,
+                 1.0);
 }
 
 // Two levels, the finer one not finer than what is there. A page that has just come counts as
@@ -126,24 +127,28 @@ vec4 osgPagedTexture_tap(osgPagedTexture_Grid grid, sampler2D own, vec2 coord, v
 vec4 osgPagedTexture_mixed(osgPagedTexture_Grid grid, sampler2D own, vec2 coord, float lod)
 {
     vec2 place = osgPagedTexture_place(grid, coord);
-    float level = clamp(lod, 0.0, float(grid.last));
-    uint entry = osgPagedTexture_entry(grid, place, int(level));
+    float level = clamp(lod, float(grid.finest), float(grid.last));
+    int finer = int(level);
+    vec2 page = osgPagedTexture_pageAt(grid, place, finer);
+    uint entry = osgPagedTexture_entry(grid, page, finer);
     if (entry >> 24 == osgPagedTexture_Empty)
         return textureLod(own, coord, 0.0);
-    int slot = int(entry & 0xffffffu);
-    int width = textureSize(osgPagedTexture_table, 0).x;
-    float since = uintBitsToFloat(
-        osgPagedTexture_word(slot % width, osgPagedTexture_slots.z + slot / width));
-    float faded = clamp((osgPagedTexture_time.x - since) * osgPagedTexture_time.y, 0.0, 1.0);
-    level = min(max(level, float(entry >> 24) + 1.0 - faded), float(grid.last));
-    int finer = int(level);
-    if (finer != int(entry >> 24))
-        entry = osgPagedTexture_entry(grid, place, finer);
-    vec4 color = osgPagedTexture_fetch(grid, place, entry);
-    float coarser = level - float(finer);
-    return coarser > 0.0
-               ? mix(color, osgPagedTexture_tap(grid, own, coord, place, finer + 1), coarser)
-               : color;
+    level = min(max(level, float(entry >> 24) + 1.0 - osgPagedTexture_faded(entry)),
+                float(grid.last));
+    if (int(level) > int(entry >> 24))
+    {
+        finer = int(level);
+        page = osgPagedTexture_pageAt(grid, place, finer);
+        entry = osgPagedTexture_entry(grid, page, finer);
+    }
+    vec4 color = osgPagedTexture_fetch(grid, place, page, finer, entry);
+    float coarser = level - float(int(level));
+    if (coarser <= 0.0)
+        return color;
+    int next = int(level) + 1;
+    page = osgPagedTexture_pageAt(grid, place, next);
+    entry = osgPagedTexture_entry(grid, page, next);
+    return mix(color, osgPagedTexture_fetch(grid, place, page, next, entry), coarser);
 }
 
 // Footprint of a pixel: the longer side as texture coordinates, the taps along it, and the level

@@ -17,7 +17,7 @@ vec4 osgPagedTexture_need(int unit, vec2 coord)
     if (taps > 1)
         coord += along * (chance - 0.5);
     int level = int(clamp(lod, 0.0, float(grid.last)));
-    ivec2 page = osgPagedTexture_pageAt(grid, osgPagedTexture_place(grid, coord), level);
+    vec2 page = osgPagedTexture_pageAt(grid, osgPagedTexture_place(grid, coord), level);
     return vec4(grid.row + 1, level, page) / 65535.0;
 }
 

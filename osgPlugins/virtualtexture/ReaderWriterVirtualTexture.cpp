@@ -10,9 +10,8 @@ class ReaderWriterVirtualTexture : public osgMultiRender::PseudoLoader
 {
 public:
     ReaderWriterVirtualTexture()
-        : PseudoLoader("virtualtexture",
-                       "Textures of any size from tile stores: "
-                       "model.ext.[(store=atlas.tiles,settings).]virtualtexture")
+        : PseudoLoader("virtualtexture", "Textures of any size from tile stores: "
+                                         "model.ext.[(store=atlas.tiles,settings).]virtualtexture")
     {
         const osgPagedTexture::VirtualSettings defaults;
         for (const osgPagedTexture::VirtualOption& option : osgPagedTexture::virtualOptions())

@@ -33,8 +33,8 @@ protected:
         const std::string store = _folder.file("atlas" + std::to_string(seed));
         if (!std::filesystem::exists(store))
             virtuals::buildStore(store, virtuals::makeLevels(2048, 2048, seed));
-        return virtuals::makeScene(
-            virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f), settings, false);
+        return virtuals::makeScene(virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f),
+                                   settings, false);
     }
 
     support::HeadlessViewer _viewer;
@@ -124,8 +124,9 @@ TEST_F(VirtualBudgetGLTest, twoContextsShowTheSameSceneEachFromItsPlace)
         calm = both->isAtRest() ? calm + 1 : 0;
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    EXPECT_EQ(support::difference(*actualNear, *expectedNear, 0.0).worst, 0.0);
-    EXPECT_EQ(support::difference(*actualFar, *expectedFar, 0.0).worst, 0.0);
+    // Pages lie in other slots, so that coordinates are rounded elsewhere.
+    EXPECT_LE(support::difference(*actualNear, *expectedNear, 0.0).worst, 1.01 / 255.0);
+    EXPECT_LE(support::difference(*actualFar, *expectedFar, 0.0).worst, 1.01 / 255.0);
     EXPECT_EQ(both->getPlans().size(), 2u);
     // The first viewer's objects go in its own context.
     second.getViewer().setSceneData(nullptr);
@@ -143,8 +144,7 @@ TEST_F(VirtualBudgetGLTest, severalTexturesAndUnitsShareTheSlots)
         const auto texture = [&](unsigned int seed) -> osg::ref_ptr<osg::Texture2D>
         {
             if (isVirtual)
-                return virtuals::makeVirtualTexture(_folder.file("t" + std::to_string(seed)))
-                    .get();
+                return virtuals::makeVirtualTexture(_folder.file("t" + std::to_string(seed))).get();
             return virtuals::makePlainTexture(virtuals::makeLevels(512, 512, seed));
         };
         osg::ref_ptr<osg::Group> group = new osg::Group;
@@ -170,7 +170,8 @@ TEST_F(VirtualBudgetGLTest, thousandJumpsLeaveNothingBehind)
     OSGKITS_NEED_GL(_viewer);
     const auto scene = makeScene(slots(64) + ",cpu=2,upload=20");
     unsigned int seed = 7;
-    const auto next = [&seed] { return double((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0; };
+    const auto next = [&seed]
+    { return double((seed = seed * 1664525u + 1013904223u) >> 8) / 16777216.0; };
     for (int jump = 0; jump < 1000; ++jump)
         _viewer.render(scene, lookFrom({8.0 * next() - 4.0, 0.0, 0.2 + 10.0 * next()}), 64, 48);
     EXPECT_LE(virtuals::countOf(*scene, "cpu.bytes"), 2.0 * 1048576.0);
@@ -178,5 +179,5 @@ TEST_F(VirtualBudgetGLTest, thousandJumpsLeaveNothingBehind)
     const auto actual = virtuals::settle(_viewer, *scene, scene, lookFrom({0.0, 0.0, 20.0}));
     const auto fresh = makeScene("");
     const auto expected = virtuals::settle(_viewer, *fresh, fresh, lookFrom({0.0, 0.0, 20.0}));
-    EXPECT_EQ(support::difference(*actual, *expected, 0.0).worst, 0.0);
+    EXPECT_LE(support::difference(*actual, *expected, 0.0).worst, 1.01 / 255.0);
 }

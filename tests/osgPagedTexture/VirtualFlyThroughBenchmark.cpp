@@ -83,7 +83,8 @@ void buildPattern(const std::string& path, std::int64_t side, int tileSide)
 support::CameraSpec cameraAt(int frame)
 {
     const double t = 2.0 * 3.14159265 * frame / Frames;
-    const osg::Vec3d eye(300.0 * std::cos(t), 300.0 * std::sin(2.0 * t), 12.0 + 8.0 * std::cos(3 * t));
+    const osg::Vec3d eye(300.0 * std::cos(t), 300.0 * std::sin(2.0 * t),
+                         12.0 + 8.0 * std::cos(3 * t));
     const osg::Vec3d ahead(-300.0 * std::sin(t), 600.0 * std::cos(2.0 * t), 0.0);
     return support::CameraSpec::perspective(eye, eye + ahead * 0.1 - osg::Vec3d(0, 0, 10.0),
                                             {0.0, 0.0, 1.0}, 55.0, double(Width) / Height, 0.5,
@@ -151,14 +152,14 @@ TEST_F(VirtualFlyThroughBenchmark, frameTimes)
     print("plain texture, 4096 x 4096", fly(plain));
     const auto scene = makeScene("gpu=128");
     double most = 0.0, sum = 0.0;
-    print("virtual, 26000 x 26000", fly(scene,
-                                        [&](int)
-                                        {
-                                            const double pages = virtuals::countOf(
-                                                *scene, "pages.uploadedThisFrame");
-                                            most = std::max(most, pages);
-                                            sum += pages;
-                                        }));
+    print("virtual, 26000 x 26000",
+          fly(scene,
+              [&](int)
+              {
+                  const double pages = virtuals::countOf(*scene, "pages.uploadedThisFrame");
+                  most = std::max(most, pages);
+                  sum += pages;
+              }));
     std::printf("pages a frame: mean %.2f, most %.0f; needed %.0f of %.0f slots\n",
                 sum / (2 * Frames), most, virtuals::countOf(*scene, "pages.needed"),
                 virtuals::countOf(*scene, "pages.slots"));
@@ -228,4 +229,10 @@ TEST_F(VirtualFlyThroughBenchmark, errorOverBudgetFeedbackAndPageSize)
         run(feedback, 128);
     for (const int side : {64, 256})
         run("gpu=32", side);
+}
+
+int main(int argc, char** argv)
+{
+    testing::InitGoogleTest(&argc, argv);
+    return RUN_ALL_TESTS();
 }

@@ -79,8 +79,8 @@ TEST_F(VirtualPictureGLTest, bordersOfPagesShowNoSeamAtAnyAngleAndLevel)
         for (const double distance : {1.0, 6.0, 25.0})
         {
             const double angle = lift * 0.017453292519943295;
-            const auto camera = lookFrom({0.3 * distance, -distance * std::cos(angle),
-                                          distance * std::sin(angle)});
+            const auto camera =
+                lookFrom({0.3 * distance, -distance * std::cos(angle), distance * std::sin(angle)});
             const auto expected = _viewer.render(plain, camera, 320, 240);
             const auto actual = virtuals::settle(_viewer, *scene, scene, camera);
             const auto marked = virtuals::settle(_viewer, *bordered, bordered, camera);
@@ -91,8 +91,8 @@ TEST_F(VirtualPictureGLTest, bordersOfPagesShowNoSeamAtAnyAngleAndLevel)
                     int error = 0;
                     for (unsigned int c = 0; c < 3; ++c)
                     {
-                        isBorder = isBorder ||
-                                   std::abs(marked->data(x, y)[c] - actual->data(x, y)[c]) > 8;
+                        isBorder =
+                            isBorder || std::abs(marked->data(x, y)[c] - actual->data(x, y)[c]) > 8;
                         error = std::max(error,
                                          std::abs(actual->data(x, y)[c] - expected->data(x, y)[c]));
                     }
@@ -117,14 +117,16 @@ TEST_F(VirtualPictureGLTest, bordersOfPagesShowNoSeamAtAnyAngleAndLevel)
 TEST_F(VirtualPictureGLTest, outsideOfZeroToOneWrapModesCount)
 {
     OSGKITS_NEED_GL(_viewer);
-    // Alike at both edges: where a picture repeats, GL filters across the edge, and pages end there.
+    // Alike at both edges: where a picture repeats, GL filters across the edge, and pages end
+    // there.
     virtuals::Levels levels = virtuals::makeLevels(512, 512, 3);
     osgPagedTexture::Pixels picture = levels[0];
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 512; ++x)
             for (int c = 0; c < 3; ++c)
-                picture.row(y)[3 * x + c] = std::uint8_t(
-                    127.5 + 60.0 * std::cos(x * 0.012271846 * (c + 1)) + 60.0 * std::cos(y * 0.024543693));
+                picture.row(y)[3 * x + c] =
+                    std::uint8_t(127.5 + 60.0 * std::cos(x * 0.012271846 * (c + 1)) +
+                                 60.0 * std::cos(y * 0.024543693));
     levels = virtuals::makeLevels(picture);
     const std::string store = build(levels);
     for (const auto mode :
@@ -144,8 +146,9 @@ TEST_F(VirtualPictureGLTest, outsideOfZeroToOneWrapModesCount)
             const auto camera = lookFrom({0.4, -0.3, height});
             const auto expected = _viewer.render(plain, camera, 320, 240);
             const auto actual = virtuals::settle(_viewer, *scene, scene, camera);
-            EXPECT_TRUE(Same(actual, expected, "virtual.wrap" + std::to_string(int(mode)) + "-" +
-                                                   std::to_string(int(height))));
+            EXPECT_TRUE(Same(actual, expected,
+                             "virtual.wrap" + std::to_string(int(mode)) + "-" +
+                                 std::to_string(int(height))));
         }
     }
 }
@@ -176,7 +179,8 @@ TEST_F(VirtualPictureGLTest, anisotropicFilteringIsSharperAndHasNoSeams)
 TEST_F(VirtualPictureGLTest, sidesThatAreNoPowersOfTwoAndNoSquaresShowTheSame)
 {
     OSGKITS_NEED_GL(_viewer);
-    for (const auto& [width, height] : {std::pair(640, 200), std::pair(100, 999), std::pair(33, 47)})
+    for (const auto& [width, height] :
+         {std::pair(640, 200), std::pair(100, 999), std::pair(33, 47)})
     {
         const virtuals::Levels levels = virtuals::makeLevels(width, height, 4);
         // GL takes levels that are rounded down: only the full size is the same picture.

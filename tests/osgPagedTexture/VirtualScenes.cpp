@@ -81,9 +81,9 @@ Levels makePlain(int width, int height, TileColor color)
 std::string encodePng(const Pixels& pixels)
 {
     osg::ref_ptr<osg::Image> image = new osg::Image;
-    image->setImage(pixels.width, pixels.height, 1, GL_RGB,
-                    pixels.channels == 4 ? GL_RGBA : GL_RGB, GL_UNSIGNED_BYTE,
-                    const_cast<std::uint8_t*>(pixels.bytes.data()), osg::Image::NO_DELETE);
+    image->setImage(pixels.width, pixels.height, 1, GL_RGB, pixels.channels == 4 ? GL_RGBA : GL_RGB,
+                    GL_UNSIGNED_BYTE, const_cast<std::uint8_t*>(pixels.bytes.data()),
+                    osg::Image::NO_DELETE);
     std::ostringstream bytes;
     osgDB::Registry::instance()->getReaderWriterForExtension("png")->writeImage(*image, bytes);
     return bytes.str();

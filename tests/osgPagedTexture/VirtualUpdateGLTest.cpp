@@ -53,10 +53,7 @@ Shown shownIn(const osg::Image& image)
 class VirtualUpdateGLTest : public testing::Test
 {
 protected:
-    VirtualUpdateGLTest()
-    {
-        virtuals::buildStore(_store, virtuals::makePlain(Side, Side, Red));
-    }
+    VirtualUpdateGLTest() { virtuals::buildStore(_store, virtuals::makePlain(Side, Side, Red)); }
 
     void paint(const TileColor& color)
     {
@@ -67,8 +64,8 @@ protected:
 
     osg::ref_ptr<VirtualScene> makeScene(const std::string& settings)
     {
-        return virtuals::makeScene(
-            virtuals::makeFloor(virtuals::makeVirtualTexture(_store), 10.0f), settings, false);
+        return virtuals::makeScene(virtuals::makeFloor(virtuals::makeVirtualTexture(_store), 10.0f),
+                                   settings, false);
     }
 
     /// Draws until the picture is blue alone; each frame has to be of one colour. Returns how many
@@ -78,8 +75,8 @@ protected:
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(40);
         for (int frame = 0; std::chrono::steady_clock::now() < end; ++frame)
         {
-            const auto image = _viewer.render(
-                &scene, lookFrom({speed * double(frame % 40), 0.0, 4.0}), 160, 120);
+            const auto image =
+                _viewer.render(&scene, lookFrom({speed * double(frame % 40), 0.0, 4.0}), 160, 120);
             const Shown shown = shownIn(*image);
             EXPECT_TRUE(shown.red == 0 || shown.blue == 0)
                 << "frame " << frame << ": " << shown.red << " red, " << shown.blue << " blue";
@@ -164,8 +161,7 @@ TEST_F(VirtualUpdateGLTest, aStoreThatIsDeletedOrTruncatedKeepsItsPicture)
     {
         for (int frame = 0; frame < 60; ++frame)
         {
-            const auto image =
-                _viewer.render(scene, lookFrom({0.01 * frame, 0.0, 4.0}), 160, 120);
+            const auto image = _viewer.render(scene, lookFrom({0.01 * frame, 0.0, 4.0}), 160, 120);
             ASSERT_GT(shownIn(*image).red, 10000u);
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }

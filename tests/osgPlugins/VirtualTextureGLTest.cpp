@@ -40,8 +40,10 @@ protected:
         for (unsigned int y = 0; y < Size; ++y)
             for (unsigned int x = 0; x < Size; ++x)
                 for (unsigned int c = 0; c < 3; ++c)
-                    wall->data(x, y)[c] = static_cast<unsigned char>(
-                        c == 0 ? x : (x / 16 + y / 16) % 2 ? 200 : 40 + y / 4);
+                    wall->data(x, y)[c] =
+                        static_cast<unsigned char>(c == 0                  ? x
+                                                   : (x / 16 + y / 16) % 2 ? 200
+                                                                           : 40 + y / 4);
         ASSERT_TRUE(osgDB::writeImageFile(*wall, _folder.file("wall.png")));
         _model = _folder.write("thing.iv", Thing);
         build(*wall);
@@ -58,8 +60,8 @@ protected:
                 for (std::int64_t x = 0; x < settings.grid.getColumns(level); ++x)
                 {
                     const TileKey key{level, x, y};
-                    writer.put(key, TileData::encoded(tile(image, settings.grid.getPixels(key),
-                                                           level)));
+                    writer.put(key,
+                               TileData::encoded(tile(image, settings.grid.getPixels(key), level)));
                 }
         writer.commit();
     }
