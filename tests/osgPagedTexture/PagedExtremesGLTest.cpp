@@ -181,22 +181,27 @@ TEST_F(PagedExtremesGLTest, fiftyThousandTexturesCostNoSquareOfTheirNumber)
 TEST_F(PagedExtremesGLTest, tenThousandLoadsAndEvictionsLeaveMemoryAsItWas)
 {
     OSGKITS_NEED_GL(_viewer);
-    const std::string city = paged::writeCity(_folder, 2, 2, 64);
-    // One half of the city fits at a time.
-    const osg::ref_ptr<PagedScene> scene = paged::read(city, "gpu=0.006,threads=1");
-    std::uint64_t early = 0;
-    double before = 0.0;
-    for (int i = 0; scene->getStatistics().loader.completed < 10000 && i < 40000; ++i)
+    const std::string city = paged::writeCity(_folder, 4, 4, 16);
+    const osg::ref_ptr<PagedScene> scene = paged::read(city, "upload=100");
+    osgPagedTexture::PagedSettings settings = scene->getSettings();
+    // Without a budget all 16 go, with one all come.
+    const auto showUntil = [&](double megabytes, std::size_t resident)
     {
-        const double y = (i / 3) % 2 ? 0.0 : 8.0;
-        _viewer.render(scene, paged::lookAlong({0.0, y, 0.0}), 64, 48);
-        if (early == 0 && scene->getStatistics().loader.completed > 1500)
-        {
-            early = scene->getStatistics().loader.completed;
+        settings.gpuMegabytes = megabytes;
+        scene->setSettings(settings);
+        for (int i = 0; i < 5000 && scene->getStatistics().resident != resident; ++i)
+            _viewer.render(scene, paged::lookAlong({0.0, -30.0, 0.0}), 64, 48);
+        EXPECT_EQ(scene->getStatistics().resident, resident);
+    };
+    double before = 0.0;
+    for (int loads = 0; loads < 10000 && !HasFailure(); loads += 16)
+    {
+        showUntil(1.0, 16);
+        showUntil(0.0, 0);
+        if (loads == 1600)
             before = support::residentMiB();
-        }
     }
-    EXPECT_GE(scene->getStatistics().loader.completed, 10000u);
+    EXPECT_GE(scene->getStatistics().loader.completed, 10000u) << "no proof";
     // A leak of 1 KiB a load would be 8 MiB.
     EXPECT_LT(support::residentMiB(), before + 4.0);
 }
