@@ -68,8 +68,7 @@ private:
             PagedDemand& sum = _demands[each.texture];
             sum.texture = each.texture;
             // What is in view has at least a share of a pixel.
-            sum.pixels =
-                std::max({sum.pixels, bound.pixels(each, *drawable, now, _cache), 1e-12});
+            sum.pixels = std::max({sum.pixels, bound.pixels(each, *drawable, now, _cache), 1e-12});
             if (moves)
                 sum.soonPixels =
                     std::max(sum.soonPixels, bound.pixels(each, *drawable, soon, _cache));

@@ -71,7 +71,8 @@ PagedScene::PagedScene()
 PagedScene::PagedScene(const PagedScene& other, const osg::CopyOp& copyop)
     : osg::Group(other, copyop), osgMultiRender::Planned(), _settings(other._settings),
       _pager(other._pager), _surfaces(other._surfaces), _scope(new osg::StateSet),
-      _views(std::make_unique<Views>()), _savedImages(), _isInstalled(other._isInstalled), _left(other._left)
+      _views(std::make_unique<Views>()), _savedImages(), _isInstalled(other._isInstalled),
+      _left(other._left)
 {
     setNumChildrenRequiringEventTraversal(getNumChildrenRequiringEventTraversal() + 1);
 }
@@ -190,8 +191,8 @@ void PagedScene::cull(osgUtil::CullVisitor& visitor)
     if (_settings.graph)
         _views->graph.cull(visitor, *_pager);
     const double ahead = _settings.prefetchSeconds;
-    _pager->report(
-        collectDemands(*graph, visitor, *_pager, *_surfaces, motion.placeAfter(ahead)), frame);
+    _pager->report(collectDemands(*graph, visitor, *_pager, *_surfaces, motion.placeAfter(ahead)),
+                   frame);
     if (ahead > 0.0 && !motion.isStill())
         lookAhead(visitor, motion, ahead, frame);
 }
@@ -203,10 +204,10 @@ void PagedScene::lookAhead(osgUtil::CullVisitor& visitor, const EyeMotion& motio
 {
     const double start = threadMilliseconds();
     const osg::Matrixd projection(*visitor.getProjectionMatrix());
-    SoonCollector collector(
-        *_pager, *_surfaces, viewThrough(projection, visitor.getViewport()), projection,
-        osg::Matrixd(*visitor.getModelViewMatrix()) *
-            motion.after(frame % 2 ? seconds : 0.5 * seconds));
+    SoonCollector collector(*_pager, *_surfaces, viewThrough(projection, visitor.getViewport()),
+                            projection,
+                            osg::Matrixd(*visitor.getModelViewMatrix()) *
+                                motion.after(frame % 2 ? seconds : 0.5 * seconds));
     collector.setTraversalMask(visitor.getTraversalMask());
     collector.setNodeMaskOverride(visitor.getNodeMaskOverride());
     osg::Group::traverse(collector);

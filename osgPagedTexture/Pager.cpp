@@ -165,8 +165,8 @@ bool Pager::learnAbilities()
 void Pager::setFormat(Entry& entry)
 {
     const PagedImage& image = entry.image;
-    entry.format = formatFor(image.channels, image.translucent, image.use,
-                             _settings.compression, _abilities);
+    entry.format =
+        formatFor(image.channels, image.translucent, image.use, _settings.compression, _abilities);
     std::vector<std::uint64_t>& bytes = _sizes[{image.width, image.height, entry.format}];
     if (bytes.empty())
         for (int level = 0; level < levelCount(image.width, image.height); ++level)

@@ -155,7 +155,7 @@ private:
         std::vector<int> queued; ///< Level on its way; None: nothing is.
     };
     static constexpr int None = -2;
-    static constexpr int MostAsked = 512; ///< Requests a frame; 1 ms or so.
+    static constexpr int MostAsked = 512, MostTaken = 512; ///< A frame; each 1 ms or so.
 
     void advanceLocked();
     void meetContexts();

@@ -58,7 +58,7 @@ void Pager::takeResults()
     if (!_loader)
         return;
     std::uint64_t waiting = backlog();
-    while (waiting <= _settings.cpuBytes() / 4)
+    for (int i = 0; i < MostTaken && waiting <= _settings.cpuBytes() / 4; ++i)
     {
         const std::vector<ChainResult> results = _loader->poll(1);
         if (results.empty())
@@ -219,9 +219,8 @@ void Pager::ask(unsigned int texture)
         return;
     cancel(texture);
     entry.urgency = urgency;
-    const std::string key = formatName(entry.format) + "." +
-                            std::to_string(int(entry.image.use)) + "." +
-                            std::to_string(int(_settings.quality));
+    const std::string key = formatName(entry.format) + "." + std::to_string(int(entry.image.use)) +
+                            "." + std::to_string(int(_settings.quality));
     std::shared_ptr<const ChainRecipe>& recipe = _recipes[key];
     if (!recipe)
         recipe = recipeFor(entry.format, entry.image.use, _settings.quality);

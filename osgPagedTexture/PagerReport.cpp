@@ -35,8 +35,7 @@ PagerStatistics Pager::getStatistics() const
         result.wholeBytes += entry.bytes ? (*entry.bytes)[0] : 0;
         if (entry.need < 0.0 || entry.state->failed)
             continue;
-        const auto texels = [&](int level)
-        {
+        const auto texels = [&](int level) {
             return double(levelSide(entry.image.width, level)) *
                    levelSide(entry.image.height, level);
         };

@@ -28,16 +28,16 @@ struct PagerStatistics
     std::size_t inView = 0;
     std::size_t resident = 0; ///< In the first context.
     std::size_t failed = 0;
-    std::size_t changing = 0; ///< That are not what they should be.
-    bool isWhole = false;     ///< All fit at full size, nothing is paged.
-    double bias = 0.0;        ///< See ResidencyPlan.
+    std::size_t changing = 0;   ///< That are not what they should be.
+    bool isWhole = false;       ///< All fit at full size, nothing is paged.
+    double bias = 0.0;          ///< See ResidencyPlan.
     double neededTexels = 0.0;  ///< That what was in view in the last frame uses.
     double missingTexels = 0.0; ///< Of them, those that are not there.
     std::uint64_t plannedBytes = 0;
     std::uint64_t wholeBytes = 0; ///< Of all of them at full size.
     double planMilliseconds = 0.0;
     double prefetchMilliseconds = 0.0; ///< Of the last view that looked ahead.
-    UploadStatistics upload; ///< Of the context that has most.
+    UploadStatistics upload;           ///< Of the context that has most.
     ChainLoader::Statistics loader;
 };
 

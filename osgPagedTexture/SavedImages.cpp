@@ -50,12 +50,12 @@ bool takesPixels(const osgDB::Options* options)
 {
     if (!options)
         return false;
-    const std::string text = options->getOptionString() + " " +
-                             options->getPluginStringData("WriteImageHint") + " ";
+    const std::string text =
+        options->getOptionString() + " " + options->getPluginStringData("WriteImageHint") + " ";
     constexpr const char* words[] = {"IncludeData", "WriteOut", "OutputTextureFiles",
                                      "inlineImages", "inlineTexturesInIVEFile"};
-    return std::any_of(std::begin(words), std::end(words), [&](const char* word)
-                       { return text.find(word) != std::string::npos; });
+    return std::any_of(std::begin(words), std::end(words),
+                       [&](const char* word) { return text.find(word) != std::string::npos; });
 }
 
 osg::ref_ptr<osg::Image> pictureOf(const PagedOrigin& origin)

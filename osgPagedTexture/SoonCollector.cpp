@@ -14,8 +14,8 @@ namespace osgPagedTexture
 
 SoonCollector::SoonCollector(const Pager& pager, SurfaceCache& cache, const TexelView& view,
                              const osg::Matrixd& projection, const osg::Matrixd& toEye)
-    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _pager(pager), _cache(cache), _view(view),
-      _toEye{toEye}, _bound(1)
+    : osg::NodeVisitor(TRAVERSE_ACTIVE_CHILDREN), _pager(pager), _cache(cache),
+      _view(view), _toEye{toEye}, _bound(1)
 {
     _view.moved = glm::dvec3(0.0);
     // Left, right, bottom and top: w + x, w - x, w + y, w - y of what the projection makes.
@@ -25,7 +25,8 @@ SoonCollector::SoonCollector(const Pager& pager, SurfaceCache& cache, const Texe
         const double sign = i % 2 ? -1.0 : 1.0;
         for (int c = 0; c < 4; ++c)
             _sides[i][c] = projection(c, 3) + sign * projection(c, row);
-        _sides[i] /= std::max(1e-300, osg::Vec3d(_sides[i][0], _sides[i][1], _sides[i][2]).length());
+        _sides[i] /=
+            std::max(1e-300, osg::Vec3d(_sides[i][0], _sides[i][1], _sides[i][2]).length());
     }
 }
 
@@ -48,8 +49,7 @@ bool SoonCollector::isInView(const osg::BoundingSphere& bound) const
         scale = std::max(scale, osg::Vec3d(m(i, 0), m(i, 1), m(i, 2)).length());
     const double radius = bound.radius() * scale;
     return std::all_of(std::begin(_sides), std::end(_sides),
-                       [&](const osg::Vec4d& side)
-                       {
+                       [&](const osg::Vec4d& side) {
                            return side[0] * center[0] + side[1] * center[1] + side[2] * center[2] +
                                       side[3] >
                                   -radius;

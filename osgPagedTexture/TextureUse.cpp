@@ -26,8 +26,8 @@ bool isAnyOf(const std::string& word, const char* const (&words)[Count])
 template <std::size_t Count>
 bool hasAnyOf(const std::string& text, const char* const (&parts)[Count])
 {
-    return std::any_of(std::begin(parts), std::end(parts), [&](const char* part)
-                       { return text.find(part) != std::string::npos; });
+    return std::any_of(std::begin(parts), std::end(parts),
+                       [&](const char* part) { return text.find(part) != std::string::npos; });
 }
 
 /// "Wall01_NormalGL-2k" as wall 01 normal gl 2k, in small letters.
@@ -104,7 +104,7 @@ bool isDotProduct(const TextureSite& site)
 
 bool isNamedNormalMap(const std::string& name, bool isShortToo)
 {
-    constexpr const char* whole[] = {"normal", "normals", "normalmap", "nrm",  "nrml",
+    constexpr const char* whole[] = {"normal", "normals", "normalmap", "nrm",     "nrml",
                                      "norm",   "nmap",    "normalgl",  "normaldx"};
     constexpr const char* variants[] = {"gl", "dx", "ogl", "opengl", "directx", "k", "px", "map"};
     std::vector<std::string> words = wordsOf(osgDB::getStrippedName(name));

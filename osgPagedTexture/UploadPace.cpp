@@ -23,7 +23,8 @@ void UploadPace::widen(double milliseconds)
 std::uint64_t UploadPace::piece() const
 {
     // Half of what is left, so that a piece that takes twice as long still fits.
-    const double bytes = _rate == 0.0 ? 0.0 : std::min(0.5 * (_budget - _spent) * _rate, double(LargestPiece));
+    const double bytes =
+        _rate == 0.0 ? 0.0 : std::min(0.5 * (_budget - _spent) * _rate, double(LargestPiece));
     if (bytes >= double(LeastPiece))
         return std::uint64_t(bytes);
     return _isFirst ? LeastPiece : 0;

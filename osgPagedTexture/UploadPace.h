@@ -13,9 +13,10 @@ namespace osgPagedTexture
 class OSGPAGEDTEXTURE_EXPORT UploadPace
 {
 public:
-    static constexpr std::uint64_t LeastPiece = 16
-                                                << 10; ///< Bytes; each piece has a cost of its own.
-    static constexpr std::uint64_t LargestPiece = 4 << 20;
+    /// Bytes; each piece has a cost of its own.
+    static constexpr std::uint64_t LeastPiece = 16 << 10;
+    /// So that one which meets pages that were never touched, or a busy driver, is soon over.
+    static constexpr std::uint64_t LargestPiece = 1 << 20;
 
     /// Begins a frame that may take that many milliseconds.
     void begin(double milliseconds);
@@ -28,7 +29,8 @@ public:
     /// least LeastPiece, so that it goes on however short the time is.
     std::uint64_t piece() const;
 
-    /// A piece took that long; 0 bytes: what else the frame's uploads did. Times that are not finite or not above 0 count as no time.
+    /// A piece took that long; 0 bytes: what else the frame's uploads did. Times that are not
+    /// finite or not above 0 count as no time.
     void took(std::uint64_t bytes, double milliseconds);
 
     double getSpent() const { return _spent; } ///< Milliseconds in this frame.

@@ -9,6 +9,7 @@
 #include <osg/GLExtensions>
 
 #include <algorithm>
+#include <iterator>
 
 namespace osgPagedTexture
 {
@@ -165,8 +166,10 @@ void UploadQueue::begin(osg::State& state)
 }
 
 /// What other threads have asked for since the last run: the newest order for a texture counts.
-void UploadQueue::takeOrders()
+/// What takes longer than a frame's time, such as many copies at once, waits for the next ones.
+void UploadQueue::takeOrders(double milliseconds)
 {
+    const double start = threadMilliseconds();
     std::vector<UploadJob> ordered;
     {
         std::lock_guard<std::mutex> lock(_mutex);
@@ -175,6 +178,7 @@ void UploadQueue::takeOrders()
     std::unordered_map<unsigned int, const UploadJob*> newest;
     for (const UploadJob& job : ordered)
         newest[job.texture] = &job;
+    std::vector<UploadJob> late;
     const auto isReplaced = [&](const UploadJob& job) { return newest.count(job.texture) > 0; };
     _jobs.erase(std::remove_if(_jobs.begin(), _jobs.end(), isReplaced), _jobs.end());
     for (UploadJob& job : ordered)
@@ -182,6 +186,11 @@ void UploadQueue::takeOrders()
         const unsigned int texture = job.texture;
         if (newest[texture] != &job)
             continue;
+        if (threadMilliseconds() - start > milliseconds)
+        {
+            late.push_back(std::move(job));
+            continue;
+        }
         if (_build && _build->job.texture == texture)
         {
             glDeleteTextures(1, &_build->texture.name);
@@ -195,6 +204,11 @@ void UploadQueue::takeOrders()
         else if (!coarsen(job))
             tell(texture, find(texture) ? find(texture)->level : UploadEvent::Gone);
     }
+    if (late.empty())
+        return;
+    std::lock_guard<std::mutex> lock(_mutex);
+    _ordered.insert(_ordered.begin(), std::make_move_iterator(late.begin()),
+                    std::make_move_iterator(late.end()));
 }
 
 void UploadQueue::evictNow(unsigned int texture)
@@ -373,7 +387,7 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     UploadPace& pace = ContextPace::of(state).begin(state, limits.milliseconds);
     const double spent = pace.getSpent();
     double start = threadMilliseconds();
-    takeOrders();
+    takeOrders(limits.milliseconds);
     if (!_buffer)
         _gl->glGenBuffers(1, &_buffer);
     _gl->glBindBuffer(UnpackBuffer, _buffer);

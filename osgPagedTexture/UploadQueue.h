@@ -109,7 +109,7 @@ private:
     };
 
     void reset();
-    void takeOrders();
+    void takeOrders(double milliseconds);
     void evictNow(unsigned int texture);
     bool coarsen(const UploadJob& job);
     bool start(const UploadJob& job, const UploadLimits& limits);

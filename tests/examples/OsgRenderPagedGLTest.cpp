@@ -33,11 +33,13 @@ TEST_F(OsgRenderPagedGLTest, statisticsHaveTexturesMemoryAndUploads)
     EXPECT_EQ(plan.at("kit"), "osgPagedTexture::PagedScene");
     const nlohmann::json counts = plan.at("counts");
     for (const char* const one :
-         {"textures", "textures.inView", "textures.resident", "files.decoded", "textures.whole"})
+         {"textures", "textures.inView", "textures.resident", "textures.whole"})
         EXPECT_EQ(counts.at(one), 1) << one;
     // 128 x 128 texels of 4 bytes and all of their levels.
     EXPECT_EQ(counts.at("gpu.bytes"), 87380);
-    EXPECT_EQ(counts.at("upload.bytes"), 87380);
+    // The preview, too.
+    EXPECT_GT(counts.at("upload.bytes"), 87380);
+    EXPECT_GE(counts.at("files.decoded"), 1);
     EXPECT_EQ(counts.at("texels.missing"), 0);
     EXPECT_GT(counts.at("upload.ms.max").get<double>(), 0.0);
     EXPECT_GE(counts.at("upload.ms.max"), counts.at("upload.ms.p50"));

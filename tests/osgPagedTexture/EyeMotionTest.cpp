@@ -37,8 +37,7 @@ TEST(EyeMotionTest, anEyeThatFliesAndTurnsEvenlyIsWhereItWillBe)
         motion.see(eyeAt(velocity * (i / 60.0), turn * i / 60.0), i / 60.0);
     for (const double seconds : {0.25, 1.0, 2.0})
     {
-        const osg::Matrixd expected =
-            eyeAt(velocity * (2.0 + seconds), turn * (2.0 + seconds));
+        const osg::Matrixd expected = eyeAt(velocity * (2.0 + seconds), turn * (2.0 + seconds));
         const osg::Matrixd now = eyeAt(velocity * 2.0, turn * 2.0);
         // exp(-20) of the first frame's rest is left in the mean.
         EXPECT_LT(differenceOf(now * motion.after(seconds), expected), 1e-5) << seconds;

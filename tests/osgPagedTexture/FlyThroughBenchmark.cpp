@@ -131,7 +131,9 @@ public:
             show(*path, time);
         const osg::Timer_t landing = osg::Timer::instance()->tick();
         const std::size_t frames = _frames.size();
-        while (_scene && !_scene->isAtRest() && secondsSince(landing) < 120.0)
+        // The need of a frame is known in the next one, and GL's abilities after the first.
+        for (int calm = 0; _scene && calm < 4 && secondsSince(landing) < 120.0;
+             calm = _scene->isAtRest() ? calm + 1 : 0)
             show(*path, end);
         const double rest = secondsSince(landing);
         _frames.resize(_task.stands ? _frames.size() : frames);

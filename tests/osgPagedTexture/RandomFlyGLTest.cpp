@@ -31,12 +31,11 @@ protected:
     /// Something that users do: settings, files that change, break, vanish, come back.
     void disturb(PagedScene& scene)
     {
-        const std::string file =
-            _folder.file("house" + std::to_string(_random() % 24) + ".png");
-        const char* const settings[] = {"gpu='0.1'",      "gpu='4'",       "upload='0.1'",
-                                        "show='levels'",  "graph='on'",    "freeze='on'",
-                                        "prefetch='0'",   "preview='4'",   "prefetch='2'",
-                                        "upload='4'",     "show='picture'"};
+        const std::string file = _folder.file("house" + std::to_string(_random() % 24) + ".png");
+        const char* const settings[] = {"gpu='0.1'",     "gpu='4'",       "upload='0.1'",
+                                        "show='levels'", "graph='on'",    "freeze='on'",
+                                        "prefetch='0'",  "preview='4'",   "prefetch='2'",
+                                        "upload='4'",    "show='picture'"};
         switch (_random() % 5)
         {
         case 0:
@@ -44,8 +43,9 @@ protected:
                                   _folder.file("cache") + "'");
             break;
         case 1:
-            paged::writePicture(_folder, std::filesystem::path(file).filename(), 32 << _random() % 4,
-                                64, 1 + int(_random() % 4), unsigned(_random()));
+            paged::writePicture(_folder, std::filesystem::path(file).filename(),
+                                32 << _random() % 4, 64, 1 + int(_random() % 4),
+                                unsigned(_random()));
             break;
         case 2:
             std::filesystem::remove(file);

@@ -39,9 +39,9 @@ protected:
             void apply(osg::Node& each) override
             {
                 osg::StateAttribute* attribute =
-                    each.getStateSet() ? each.getStateSet()->getTextureAttribute(
-                                             0, osg::StateAttribute::TEXTURE)
-                                       : nullptr;
+                    each.getStateSet()
+                        ? each.getStateSet()->getTextureAttribute(0, osg::StateAttribute::TEXTURE)
+                        : nullptr;
                 if (attribute)
                     image = attribute->asTexture()->getImage(0);
                 traverse(each);
@@ -61,8 +61,8 @@ protected:
 
 TEST_F(SavedImagesGLTest, picturesOfTheModelItselfAreWrittenBackTexelByTexel)
 {
-    for (const GLenum format : {GL_LUMINANCE, GL_RED, GL_LUMINANCE_ALPHA, GL_RGB, GL_BGR, GL_RGBA,
-                                GL_BGRA})
+    for (const GLenum format :
+         {GL_LUMINANCE, GL_RED, GL_LUMINANCE_ALPHA, GL_RGB, GL_BGR, GL_RGBA, GL_BGRA})
         for (const char* const extension : {"osgt", "osgb", "ive"})
         {
             const osg::ref_ptr<PagedScene> scene = readEmbedding(format);

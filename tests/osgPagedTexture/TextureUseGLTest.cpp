@@ -25,7 +25,8 @@ protected:
     /// `_texture` counts.
     TextureUse use(unsigned int unit, const std::string& name, int channels = 3)
     {
-        return osgPagedTexture::useOf(*_texture, {{_stateSet.get()}, unit, _bumpUnit}, {name, channels});
+        return osgPagedTexture::useOf(*_texture, {{_stateSet.get()}, unit, _bumpUnit},
+                                      {name, channels});
     }
 
     /// Of how many of a scene's textures the plan says that they are normals.
@@ -159,8 +160,7 @@ TEST_F(TextureUseGLTest, normalsOnTheGpuAreThoseOfTheFileAndStayUnitVectors)
     ASSERT_TRUE(osgDB::writeImageFile(*image, _folder.file("ball_normal.png")));
     const std::string model = _folder.file("ball.osgt");
     ASSERT_TRUE(osgDB::writeNodeFile(
-        *paged::makeSquare({0.0f, 4.0f, 0.0f},
-                           paged::makeTexture(_folder.file("ball_normal.png"))),
+        *paged::makeSquare({0.0f, 4.0f, 0.0f}, paged::makeTexture(_folder.file("ball_normal.png"))),
         model));
     const osg::ref_ptr<PagedScene> scene = paged::read(model, "wait=on");
     for (const double away : {0.0, -20.0})
