@@ -47,6 +47,7 @@ MixState::MixState(unsigned int unit)
     _texels->getBufferObject()->setTarget(GL_TEXTURE_BUFFER_ARB);
     // Of one buffer OSG sends only the part that has changed: the cells stay while the eye moves.
     _cells->setBufferObject(_texels->getBufferObject());
+    texture->setUserData(_cells); // the StateSet may outlive this; a buffer does not own its parts
     texture->setInternalFormat(GL_RGBA32UI_EXT);
     _stateSet->setDataVariance(osg::Object::DYNAMIC);
     // PROTECTED: the one of a kit around this one may be above.
