@@ -66,8 +66,7 @@ void MapPass::upload(osg::State& state)
         words.push_back({float(each.center.x()), float(each.center.y()), float(each.em),
                          label.width, float(each.anchor.x()), float(each.anchor.y()),
                          float(each.distance), -1.0f, label.identifier, label.own.first,
-                         label.own.last | nextOf(label.own) << MapQuads::NextShift,
-                         label.style});
+                         label.own.last | nextOf(label.own) << MapQuads::NextShift, label.style});
     }
     if (_settings.declutter)
         for (const std::uint32_t index : _order)

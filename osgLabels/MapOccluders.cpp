@@ -156,8 +156,8 @@ bool MapPass::boxOf(const osgUtil::RenderLeaf& leaf, PixelBox& box, double& near
         return false;
     const osg::Matrixd modelview =
         leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd();
-    const MapFrame frame(leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd(),
-                         _view, _isByDepth);
+    const MapFrame frame(leaf._projection ? osg::Matrixd(*leaf._projection) : osg::Matrixd(), _view,
+                         _isByDepth);
     const double inf = std::numeric_limits<double>::infinity();
     nearest = inf;
     box = {inf, inf, -inf, -inf};
@@ -368,7 +368,8 @@ bool MapPass::rekey(const SurfaceItem& item, MapAction action, int next, int sid
     }
     const auto bit = [](bool is, std::uint32_t value) { return is ? value : 0u; };
     const bool isMany = found->second.isMany;
-    key.output = MapOccluder | bit(next > 0, MapNext) | bit(next > 1, MapNested) | bit(isSheer, MapOpaque) | bit(isMany, MapMany) |
+    key.output = MapOccluder | bit(next > 0, MapNext) | bit(next > 1, MapNested) |
+                 bit(isSheer, MapOpaque) | bit(isMany, MapMany) |
                  bit((isMany || next > 1) && _isPaged, Paged);
     _drawnNext += next > 0;
     return true;

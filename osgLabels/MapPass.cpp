@@ -172,8 +172,8 @@ void MapPass::placeAll()
     }
 }
 
-/// Labels of features that others lie in need a layer for each depth of these. Deeper ones than there
-/// are layers for share the last: what is around them does not hide them.
+/// Labels of features that others lie in need a layer for each depth of these. Deeper ones than
+/// there are layers for share the last: what is around them does not hide them.
 void MapPass::findDepths()
 {
     constexpr std::size_t most = 6;

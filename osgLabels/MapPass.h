@@ -119,8 +119,8 @@ private:
     osg::ref_ptr<MapTargets> _targets;
     osg::ref_ptr<MapQuads> _quads;
     std::shared_ptr<const FeatureTree::Nesting> _nesting; ///< Likewise.
-    std::vector<std::uint32_t> _depths; ///< Of labels' features that others lie in.
-    osg::ref_ptr<BufferTexture> _nests; ///< Null where there are none.
+    std::vector<std::uint32_t> _depths;     ///< Of labels' features that others lie in.
+    osg::ref_ptr<BufferTexture> _nests;     ///< Null where there are none.
     std::shared_ptr<const MapWords> _words; ///< Of what has records, as it was in cull.
     osg::ref_ptr<BufferTexture> _records;
 };
@@ -132,7 +132,7 @@ enum MapBits : std::uint32_t
     MapNext = 1u << 13,   ///< A layer behind the nearest.
     MapOpaque = 1u << 14, ///< What has less than half of the opacity is left out.
     MapMany = 1u << 15,   ///< Objects have records.
-    MapNested = 1u << 16  ///< Behind all of the feature of a certain depth, not of the number alone.
+    MapNested = 1u << 16 ///< Behind all of the feature of a certain depth, not of the number alone.
 };
 
 } // namespace osgLabels

@@ -39,8 +39,8 @@ osg::ref_ptr<osg::Group> nested(int levels)
         osg::ref_ptr<osg::Group> feature = new osg::Group;
         feature->setName(std::to_string(i));
         const float shade = 0.4f + 0.05f * float(i);
-        feature->addChild(box("", {0, 0.3f - 0.15f * float(i), 0}, {0.7f, 0.05f, 0.2f},
-                              {shade, 0.7f, shade, 1}));
+        feature->addChild(
+            box("", {0, 0.3f - 0.15f * float(i), 0}, {0.7f, 0.05f, 0.2f}, {shade, 0.7f, shade, 1}));
         around->addChild(feature);
         around = feature;
     }
@@ -151,8 +151,8 @@ TEST_F(MapNested, parallelAndPerspectiveLabelsInOnePassHideByDepth)
     const osg::Vec3d left(-0.5, 0, 0), right(0.5, 0, 0);
     const auto pixels = [&](const osg::Vec3d& perspective, const osg::Vec3d& parallel)
     {
-        const auto top =
-            scene({before, label("mm", perspective), inParallel({beforeRight, label("mm", parallel)})});
+        const auto top = scene(
+            {before, label("mm", perspective), inParallel({beforeRight, label("mm", parallel)})});
         const Picture picture = render(*top);
         keep(picture, "map-mixed-projections");
         return std::pair(redPixels(*picture, 0, labelScene::Width / 2),

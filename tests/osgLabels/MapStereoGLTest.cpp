@@ -48,7 +48,8 @@ protected:
                    label("aside", {0.6, 0.8, 0.75})},
                   "surface=on," + GetParam());
         Picture picture;
-        // OSG makes the stencil of eyes that share a window's pixels where the window's size is new.
+        // OSG makes the stencil of eyes that share a window's pixels where the window's size is
+        // new.
         labelScene::viewer().render(new osg::Group, labelScene::fromFront(), width - 2, Height);
         for (double second = 1.0; second <= 4.0; second += 1.0)
         {
@@ -68,10 +69,9 @@ int differing(const osg::Image& all, int x, int y, const osg::Image& eye, const 
     for (int t = 0; t < eye.t(); ++t)
         for (int s = 0; s < eye.s(); ++s)
         {
-            const osg::Vec4 off =
-                componentMultiply(all.getColor(unsigned(x + s), unsigned(y + t)) -
-                                      eye.getColor(unsigned(s), unsigned(t)),
-                                  mask);
+            const osg::Vec4 off = componentMultiply(all.getColor(unsigned(x + s), unsigned(y + t)) -
+                                                        eye.getColor(unsigned(s), unsigned(t)),
+                                                    mask);
             count += off.length() > 2.0f / 255.0f;
         }
     return count;
