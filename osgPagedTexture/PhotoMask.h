@@ -37,9 +37,8 @@ struct PhotoMask
 };
 
 /// Draws which pixels of a photograph a model shows: its triangles, seen by an orthographic camera
-/// over their texture coordinates. Follows "Optimizing the workflow of a graphic artist" (masks,
-/// atlas and tile store); beyond the largest viewport in pieces, each triangle being looked at once
-/// a photograph. Requires OpenGL 3.3.
+/// over their texture coordinates, looked at once a photograph; beyond the largest viewport in
+/// pieces. Requires OpenGL 3.3.
 class OSGPAGEDTEXTURE_EXPORT MaskRenderer
 {
 public:
