@@ -45,8 +45,17 @@ OSGPAGEDTEXTURE_EXPORT AtlasModelReport moveToAtlas(ModelPhotos& model, const At
                                                     const std::string& folder,
                                                     const AtlasModelSettings& settings);
 
-/// Writes the model in the format of its name. OSG's own formats have the overview inside, others
-/// in a file beside. Photographs that it still shows are named from its folder. Throws ModelError.
-OSGPAGEDTEXTURE_EXPORT void writeAtlasModel(const ModelPhotos& model, const std::string& path);
+/// Who is to show a model with coordinates of an atlas.
+enum class AtlasModelViewer
+{
+    Kit,  ///< Where the format has classes of kits, a VirtualScene that finds its store by itself.
+    Plain ///< Any viewer: the overview, and by the textures' user value the store.
+};
+
+/// Writes the model in the format of its name. For any viewer, OSG's own formats have the overview
+/// inside, others in a file beside. Photographs that it still shows are named from its folder.
+/// Throws ModelError.
+OSGPAGEDTEXTURE_EXPORT void writeAtlasModel(const ModelPhotos& model, const std::string& path,
+                                            AtlasModelViewer viewer = AtlasModelViewer::Kit);
 
 } // namespace osgPagedTexture

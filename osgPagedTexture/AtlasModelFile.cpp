@@ -4,6 +4,7 @@
 #include <osgPagedTexture/FileImages.h>
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PictureFile.h>
+#include <osgPagedTexture/VirtualScene.h>
 
 #include <osg/NodeVisitor>
 #include <osg/ValueObject>
@@ -94,9 +95,31 @@ void prepareImage(osg::Texture& texture, const ModelPhotos& model, const fs::pat
     image->setWriteHint(osg::Image::EXTERNAL_FILE);
 }
 
+bool hasClassesOfKits(const std::string& extension)
+{
+    return extension == "osgb" || extension == "osgt" || extension == "osgx";
+}
+
+/// Its textures that name a store become virtual ones.
+osg::ref_ptr<osg::Node> virtualSceneOf(osg::Node& model, const std::string& path)
+{
+    // Without it the file would be written, without the model.
+    if (!osgDB::Registry::instance()->getObjectWrapperManager()->findWrapper(
+            "osgPagedTexture::VirtualScene"))
+        throw ModelError("model '" + path +
+                         "' can't be written: the plugin osgdb_serializers_osgpagedtexture is not "
+                         "found; set OSG_LIBRARY_PATH, or write it for plain viewers");
+    const osg::ref_ptr<osgDB::Options> options = new osgDB::Options;
+    options->getDatabasePathList().push_back(osgDB::getFilePath(path));
+    const osg::ref_ptr<VirtualScene> scene = new VirtualScene;
+    scene->addChild(&model);
+    scene->install(options);
+    return scene;
+}
+
 } // namespace
 
-void writeAtlasModel(const ModelPhotos& model, const std::string& path)
+void writeAtlasModel(const ModelPhotos& model, const std::string& path, AtlasModelViewer viewer)
 {
     TextureVisitor visitor;
     model.model->accept(visitor);
@@ -107,8 +130,12 @@ void writeAtlasModel(const ModelPhotos& model, const std::string& path)
     if (!registry->getReaderWriterForExtension(extension))
         throw ModelError("model '" + path + "' can't be written: no plugin of OSG knows '." +
                          extension + "'; use .osgb");
+    const osg::ref_ptr<osg::Node> written =
+        viewer == AtlasModelViewer::Kit && hasClassesOfKits(extension)
+            ? virtualSceneOf(*model.model, path)
+            : model.model;
     const osgDB::ReaderWriter::WriteResult result =
-        registry->writeNode(*model.model, path, registry->getOptions());
+        registry->writeNode(*written, path, registry->getOptions());
     if (!result.success())
     {
         const std::string cause = !result.message().empty() ? result.message()

@@ -392,7 +392,7 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
         _gl->glGenBuffers(1, &_buffer);
     _gl->glBindBuffer(UnpackBuffer, _buffer);
     const double ordered = threadMilliseconds();
-    _pace.took(0, ordered - start); // Says nothing about the rate.
+    pace.took(0, ordered - start); // Says nothing about the rate.
     start = ordered;
     while (_build || !_jobs.empty())
     {

@@ -7,9 +7,11 @@
 
 #include <osg/NodeVisitor>
 #include <osg/Notify>
+#include <osg/ValueObject>
 #include <osgGA/EventVisitor>
 
 #include <map>
+#include <vector>
 
 namespace osgPagedTexture
 {
@@ -17,10 +19,12 @@ namespace osgPagedTexture
 namespace
 {
 
-/// Replaces textures by virtual ones where a store is said, and finds those that there are.
+/// Finds virtual textures, and puts them in the place of those that name a store by their user value.
 class Installer : public osg::NodeVisitor
 {
 public:
+    /// `store`: instead of what the textures name; then, where none names one, all of unit 0 show
+    /// it.
     explicit Installer(const std::string& store)
         : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _store(store)
     {
@@ -34,38 +38,54 @@ public:
     }
     void apply(osg::Drawable& drawable) override { apply(static_cast<osg::Node&>(drawable)); }
 
+    void finish()
+    {
+        if (!_store.empty() && textures.empty())
+            for (const osg::ref_ptr<osg::StateSet>& each : _others)
+                replace(*each, 0, _store);
+    }
+
     std::map<osg::Texture2D*, osg::ref_ptr<VirtualTexture>> textures; ///< Virtual ones themselves.
 
 private:
+    static osg::Texture2D* textureOf(const osg::StateSet& stateSet, unsigned int unit)
+    {
+        return dynamic_cast<osg::Texture2D*>(const_cast<osg::StateAttribute*>(
+            stateSet.getTextureAttribute(unit, osg::StateAttribute::TEXTURE)));
+    }
+
     void visit(osg::StateSet& stateSet)
     {
         for (unsigned int unit = 0; unit < stateSet.getNumTextureAttributeLists(); ++unit)
         {
-            auto* texture = dynamic_cast<osg::Texture2D*>(
-                stateSet.getTextureAttribute(unit, osg::StateAttribute::TEXTURE));
+            osg::Texture2D* texture = textureOf(stateSet, unit);
+            std::string named;
             if (!texture)
                 continue;
-            auto* already = dynamic_cast<VirtualTexture*>(texture);
-            if (already)
+            if (auto* already = dynamic_cast<VirtualTexture*>(texture))
                 textures[texture] = already;
-            else if (unit == 0 && !_store.empty())
-                replace(stateSet, *texture);
+            else if (texture->getUserValue("osgPagedTexture.store", named) && !named.empty())
+                replace(stateSet, unit, _store.empty() ? named : _store);
+            else if (unit == 0)
+                _others.emplace_back(&stateSet);
         }
     }
 
-    void replace(osg::StateSet& stateSet, osg::Texture2D& texture)
+    void replace(osg::StateSet& stateSet, unsigned int unit, const std::string& store)
     {
-        const auto pair = stateSet.getTextureAttributePair(0, osg::StateAttribute::TEXTURE);
-        const osg::StateAttribute::OverrideValue value = pair->second;
+        osg::Texture2D* texture = textureOf(stateSet, unit);
+        const osg::StateAttribute::OverrideValue value =
+            stateSet.getTextureAttributePair(unit, osg::StateAttribute::TEXTURE)->second;
         // Kept, so that no other texture gets its address.
-        _replaced.emplace_back(&texture);
-        osg::ref_ptr<VirtualTexture>& own = textures[&texture];
+        _replaced.emplace_back(texture);
+        osg::ref_ptr<VirtualTexture>& own = textures[texture];
         if (!own)
-            own = new VirtualTexture(texture, _store);
-        stateSet.setTextureAttribute(0, own, value);
+            own = new VirtualTexture(*texture, store);
+        stateSet.setTextureAttribute(unit, own, value);
     }
 
     const std::string _store;
+    std::vector<osg::ref_ptr<osg::StateSet>> _others; ///< With a texture in unit 0, naming no store.
     std::vector<osg::ref_ptr<osg::Texture2D>> _replaced;
 };
 
@@ -116,6 +136,7 @@ void VirtualScene::install(const osgDB::Options* options)
     const std::string store = getSettings().store;
     Installer installer(store);
     accept(installer);
+    installer.finish();
     if (installer.textures.empty() && !store.empty())
     {
         const osg::ref_ptr<VirtualTexture> whole = new VirtualTexture(store);

@@ -40,8 +40,10 @@ public:
     void setSettingsText(const std::string& text);
     std::string getSettingsText() const;
 
-    /// Finds the stores of all VirtualTextures of the subgraph. With VirtualSettings::store, makes
-    /// all 2D textures of unit 0 show that one; where there is none, the whole subgraph. Relative
+    /// Finds the stores of all VirtualTextures of the subgraph and of 2D textures that name one by
+    /// the user value `osgPagedTexture.store`, as models of `osgtilestore atlas` do. With
+    /// VirtualSettings::store these show that one; where none names a store, all 2D textures of
+    /// unit 0 do; where there are none, the whole subgraph. Relative
     /// paths are looked for in the options' folders and OSG's. Now, and not while it is drawn; a
     /// scene from a file does it at its first frame. Images become the stores' coarsest pages.
     void install(const osgDB::Options* options = nullptr);

@@ -27,6 +27,8 @@ Wrapped, repeated and negative coordinates are worked in by cutting triangles.
   --overview N       longest side of the coarse picture, 1 to 16384; default 2048
   --most-repeats N   a photograph that a triangle repeats more often stays a texture of its own;
                      default 256
+  --plain            .osgb, .osgt and .osgx, too, are for viewers that lack this kit's plugins;
+                     else they are virtual textures that need no suffix
   --json             what was done as JSON
   --help             this text
 )";
@@ -52,7 +54,8 @@ int run(const Arguments& arguments)
     ModelPhotos model = readModel(files[0]);
     const AtlasModelReport report = moveToAtlas(
         model, layout, std::filesystem::absolute(files[1]).parent_path().string(), settings);
-    writeAtlasModel(model, files[3]);
+    writeAtlasModel(model, files[3],
+                    arguments.has("--plain") ? AtlasModelViewer::Plain : AtlasModelViewer::Kit);
     Json left = Json::array();
     for (const LeftSurface& each : report.left)
         left.push_back({{"name", each.name}, {"reason", each.reason}});
@@ -83,7 +86,7 @@ int run(const Arguments& arguments)
 const Subcommand AtlasCommand{"atlas",
                               "a model with coordinates of the atlas",
                               Help,
-                              {{"--overview"}, {"--most-repeats"}},
+                              {{"--overview"}, {"--most-repeats"}, {"--plain", false}},
                               run};
 
 } // namespace tilestore

@@ -210,7 +210,7 @@ TEST_F(AtlasModelTest, writtenModelsNameTheStoreAndAreReadByOsg)
             settings.overview = new osg::Image;
             settings.overview->allocateImage(8, 8, 1, GL_RGB, GL_UNSIGNED_BYTE, 1);
             EXPECT_EQ(move(model, settings).drawables, 4u);
-            writeAtlasModel(model, _folder.file(name));
+            writeAtlasModel(model, _folder.file(name), AtlasModelViewer::Plain);
         }
         ModelPhotos again;
         again.model = osgDB::readRefNodeFile(_folder.file(name));

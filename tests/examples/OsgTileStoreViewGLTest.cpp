@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "../osgPagedTexture/CapturedWall.h"
+
+#include <osgPagedTexture/ImageFile.h>
+#include <osgPagedTexture/PictureFile.h>
+#include <osgPagedTexture/VirtualScene.h>
+
+#include <support/ChildProcess.h>
+#include <support/CompareImage.h>
+#include <support/HeadlessViewer.h>
+#include <support/TemporaryFolder.h>
+
+#include <osgDB/ReadFile>
+#include <osgDB/Registry>
+
+#include <gtest/gtest.h>
+
+namespace
+{
+
+using namespace osgPagedTexture;
+
+/// An artist's way: a model with photographs becomes an atlas, a store, a model that shows it.
+class OsgTileStoreViewGLTest : public testing::Test
+{
+protected:
+    static constexpr int Width = 320, Height = 240;
+
+    void SetUp() override
+    {
+        OSGKITS_NEED_GL(_viewer);
+        _model = CapturedWall(20, 16, 100, 80).write(_folder.getPath().string());
+        const std::string layout = _folder.file("wall.layout.json");
+        run({"layout", _model, layout});
+        // Without loss, so that pictures can be compared.
+        run({"build", layout, "--store", _store, "--format", "png"});
+        run({"atlas", _model, layout, _store, _atlas});
+    }
+
+    static void run(const std::vector<std::string>& words)
+    {
+        support::ChildProcess process;
+        process.arguments = {OSGKITS_OSGTILESTORE};
+        process.arguments.insert(process.arguments.end(), words.begin(), words.end());
+        const auto result = process.run();
+        ASSERT_EQ(result.exitCode, 0) << result.output << result.errors;
+    }
+
+    osg::ref_ptr<osg::Image> view(osg::Node* node)
+    {
+        // So near that a texel covers more than a pixel: levels of the atlas and of a photograph
+        // whose sides are no powers of two are not the same.
+        const auto camera = support::CameraSpec::perspective(
+            {2.0, 1.5, 2.5}, {2.0, 1.5, 0.0}, {0, 1, 0}, 40, double(Width) / Height, 0.1, 100);
+        return _viewer.render(node, camera, Width, Height, 20);
+    }
+
+    osg::ref_ptr<osg::Image> viewModel()
+    {
+        osgDB::Registry::instance()->clearObjectCache();
+        return view(osgDB::readRefNodeFile(_model));
+    }
+
+    osg::ref_ptr<VirtualScene> readAtlas() const
+    {
+        const osg::ref_ptr<osg::Node> node = osgDB::readRefNodeFile(_atlas);
+        osg::ref_ptr<VirtualScene> scene = dynamic_cast<VirtualScene*>(node.get());
+        if (!scene)
+            return nullptr;
+        VirtualSettings settings = scene->getSettings();
+        settings.wait = true;
+        settings.compression = Compression::None;
+        scene->setSettings(settings);
+        return scene;
+    }
+
+    support::TemporaryFolder _folder;
+    support::HeadlessViewer _viewer;
+    std::string _model;
+    const std::string _store = _folder.file("wall.tiles"), _atlas = _folder.file("atlas.osgb");
+};
+
+TEST_F(OsgTileStoreViewGLTest, aModelWithAnAtlasShowsItsPhotographsByItself)
+{
+    const auto truth = viewModel();
+    const auto scene = readAtlas();
+    ASSERT_TRUE(truth && scene);
+    const auto shown = view(scene);
+    ASSERT_TRUE(shown);
+    // Two roundings of the interpolation, by GL and by the shader; places of the atlas are rounded
+    // to a few thousandths of a pixel.
+    const auto difference = support::difference(*shown, *truth, 2.0 / 255.0);
+    EXPECT_LT(difference.getShareOver(), 0.002) << difference.worst * 255.0;
+}
+
+TEST_F(OsgTileStoreViewGLTest, anUpdatedPhotographIsShown)
+{
+    const auto scene = readAtlas();
+    ASSERT_TRUE(scene);
+    const auto before = view(scene);
+    ASSERT_TRUE(before);
+    Pixels photograph = readImageFile(_folder.file("camera1.png")).pixels;
+    for (std::uint8_t& byte : photograph.bytes)
+        byte = std::uint8_t(255 - byte);
+    writePictureFile(_folder.file("camera1.png"), photograph);
+    run({"update", _store});
+    scene->update();
+    const auto shown = view(scene), truth = viewModel();
+    ASSERT_TRUE(shown && truth);
+    EXPECT_GT(support::difference(*shown, *before, 2.0 / 255.0).getShareOver(), 0.1);
+    const auto difference = support::difference(*shown, *truth, 2.0 / 255.0);
+    EXPECT_LT(difference.getShareOver(), 0.002) << difference.worst * 255.0;
+}
+
+} // namespace
