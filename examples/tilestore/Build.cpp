@@ -141,23 +141,48 @@ AtlasLayout makeLayout(const BuildConfig& build, std::vector<std::string>& failu
     return layout;
 }
 
-/// Whether a photograph has alpha that shows. JPEG has none.
+namespace
+{
+
+/// Whether a photograph has alpha that shows.
+bool isTranslucent(const BuildConfig& build, const AtlasPhoto& photo)
+{
+    const std::string extension = fs::path(photo.path).extension().string();
+    if (extension == ".jpg" || extension == ".jpeg" || extension == ".JPG") // has none
+        return false;
+    try
+    {
+        return readImageInfo(folderOf(build.layout) + "/" + photo.path).translucent;
+    }
+    catch (const ImageError&) // the builder tells
+    {
+        return false;
+    }
+}
+
+/// Says what tiles without alpha lose of photographs that have it.
+void warnOfLostAlpha(const BuildConfig& build, const AtlasLayout& layout)
+{
+    if (build.channelsGiven || build.settings.format.keepsAlpha())
+        return;
+    const auto count =
+        std::count_if(layout.photos.begin(), layout.photos.end(),
+                      [&](const AtlasPhoto& photo) { return isTranslucent(build, photo); });
+    if (count > 0)
+        std::fprintf(stderr,
+                     "osgtilestore build: %s of %s photographs have alpha, which these tiles do "
+                     "not keep: what is transparent shows; --format png, bc3 or bc7 keeps it\n",
+                     grouped(std::uint64_t(count)).c_str(), grouped(layout.photos.size()).c_str());
+}
+
+} // namespace
 
 int channelsOf(const BuildConfig& build, const AtlasLayout& layout)
 {
-    const auto isTranslucent = [&](const AtlasPhoto& photo)
-    {
-        try
-        {
-            return readImageInfo(folderOf(build.layout) + "/" + photo.path).translucent;
-        }
-        catch (const ImageError&) // the builder tells
-        {
-            return false;
-        }
-    };
     const bool mayHaveAlpha = !build.channelsGiven && build.settings.format.keepsAlpha();
-    return mayHaveAlpha && std::any_of(layout.photos.begin(), layout.photos.end(), isTranslucent)
+    return mayHaveAlpha &&
+                   std::any_of(layout.photos.begin(), layout.photos.end(),
+                               [&](const AtlasPhoto& photo) { return isTranslucent(build, photo); })
                ? 4
                : build.settings.channels;
 }
@@ -291,6 +316,7 @@ int run(const Arguments& arguments)
     if (build.makeLayout)
         writeAtlasLayout(build.layout, outcome.layout);
     build.settings.channels = channelsOf(build, outcome.layout);
+    warnOfLostAlpha(build, outcome.layout);
     outcome.layoutSeconds = layoutTime.seconds();
     if (!build.atlas.empty())
     {
