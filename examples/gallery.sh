@@ -7,10 +7,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 lit='.(shadows=off,lighting=pixel).shadowvolume'
 shadowed=.shadowvolume mask='.(show=mask,light=0).shadowvolume'
 volumes='.(show=volumes,light=0).shadowvolume' maps='.(shadows=map).shadowvolume'
-measuring=measuring labels=labels maplabels=maplabels mixed=mixed paged=paged # have no plain form
+measuring=measuring labels=labels maplabels=maplabels mixed=mixed paged=paged virtual=virtual # have no plain form
 while (($#)); do
     case $1 in
-        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels= mixed= paged=; shift ;;
+        --plain) lit= shadowed= mask= volumes= maps= measuring= labels= maplabels= mixed= paged= virtual=; shift ;;
         -h|--help) sed -n '2,3s/^# \{0,1\}//p' "${BASH_SOURCE[0]}"; exit 0 ;;
         *) echo "examples/gallery.sh: unknown argument '$1'; see --help" >&2; exit 2 ;;
     esac
@@ -23,7 +23,7 @@ trap 'status=$?; ((status == 0)) || echo "gallery FAILED after $((SECONDS - star
 # Not the tests, which take most of the building time.
 OSGKITS_TARGETS="osgrender osgdb_egl osgdb_osmesa osgdb_shadowvolume osgrefinery osgdb_labels
     osgdb_serializers_osglabels osgdb_multirender
-    osgphotocity osgdb_pagedtexture" ./setup.sh
+    osgphotocity osgdb_pagedtexture osgtilestore osgdb_virtualtexture osgdb_serializers_osgpagedtexture" ./setup.sh
 mkdir -p "$formats"
 
 # Other formats, made from Inventor models by stock osgconv.
@@ -44,9 +44,17 @@ for refinery in "3000 refinery.osgb" "3000 refinery.iv" "60000 refinery60000.osg
 done
 
 build/bin/osgphotocity --textures 40 "$scenes/photos.osgb" >"$out/osgphotocity.log"
+# The same photographs as a tile store, in blocks because some have alpha.
+(
+    cd "$scenes"
+    export OSG_LIBRARY_PATH=$OLDPWD/build/lib
+    "$OLDPWD/build/bin/osgtilestore" layout photos.osgb photos.layout.json
+    "$OLDPWD/build/bin/osgtilestore" build photos.layout.json --store photos.tiles --format bc7
+    "$OLDPWD/build/bin/osgtilestore" atlas photos.osgb photos.layout.json photos.tiles atlas.osgb
+) >"$out/osgtilestore.log" 2>&1 || { cat "$out/osgtilestore.log" >&2; exit 1; }
 
 scripts=()
-for script in shadows $labels $maplabels $mixed $paged $measuring chess machines robots scenes vehicles household formats; do
+for script in shadows $labels $maplabels $mixed $paged $virtual $measuring chess machines robots scenes vehicles household formats; do
     scripts+=("@examples/scenes/$script.txt")
 done
 echo "Rendering to $out (Coin will miss the chess board that chesschairs.iv names and Debian lacks)"

@@ -2,6 +2,7 @@
 #include <osgPagedTexture/VirtualTexture.h>
 
 #include <osgPagedTexture/MakeMipChain.h>
+#include <osgPagedTexture/PageTexels.h>
 #include <osgPagedTexture/TileExtract.h>
 #include <osgPagedTexture/VirtualPages.h>
 
@@ -36,20 +37,39 @@ std::vector<Pixels> levelsOf(const Pixels& picture)
     return levels;
 }
 
-/// The coarsest level that is paged, which is a single page.
+bool isOpaque(const Pixels& picture)
+{
+    if (picture.channels != 4)
+        return false;
+    for (std::size_t i = 3; i < picture.bytes.size(); i += 4)
+        if (picture.bytes[i] != 255)
+            return false;
+    return true;
+}
+
+Pixels withoutAlpha(const Pixels& picture)
+{
+    Pixels opaque(picture.width, picture.height, 3);
+    for (std::size_t i = 0; i < opaque.bytes.size() / 3; ++i)
+        std::copy_n(&picture.bytes[4 * i], 3, &opaque.bytes[3 * i]);
+    return opaque;
+}
+
+/// The coarsest level that is paged, which is a single page. Its channels say whether the texture
+/// has alpha: what surfaces do depends on that.
 Pixels coarsestOf(const TileReader& reader)
 {
     const TileGrid& grid = reader.getSettings().grid;
     const int level = pageLevels(grid) - 1;
-    Pixels picture(int(grid.getWidth(level)), int(grid.getHeight(level)),
-                   reader.getSettings().format == "png" ? 4 : 3);
+    const bool mayHaveAlpha = pageFormatOf(reader.getSettings()) != BlockFormat::BC1;
+    Pixels picture(int(grid.getWidth(level)), int(grid.getHeight(level)), mayHaveAlpha ? 4 : 3);
     ExtractSettings settings;
     settings.channels = picture.channels;
     int y = picture.height;
     readRegion(reader, level, {0, 0, picture.width, picture.height}, settings,
                [&](const std::uint8_t* row)
                { std::copy_n(row, picture.width * picture.channels, picture.row(--y)); });
-    return picture;
+    return isOpaque(picture) ? withoutAlpha(picture) : picture;
 }
 
 osg::ref_ptr<osg::Image> imageOf(const Pixels& picture)

@@ -51,7 +51,8 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
                          has alpha and the format, too
   --filter F             [filter] linear: coarser levels average light (default); plain: code
                          values, as most programs do
-  --background R,G,B     [background] where there is no photograph; default 255,255,255
+  --background R,G,B     [background] where there is no photograph; default 255,255,255,
+                         and transparent where tiles have alpha
   --lossless             [lossless] tiles of level 0 that lie in one JPEG are cut out of it without
                          loss, of its own quality; where tile side - 2 * border is a multiple of 16
   --atlas FILE           [atlas] also writes the large picture, .ppm, .tif, .png: for other programs
@@ -177,14 +178,16 @@ void warnOfLostAlpha(const BuildConfig& build, const AtlasLayout& layout)
 
 } // namespace
 
-int channelsOf(const BuildConfig& build, const AtlasLayout& layout)
+void chooseChannels(BuildConfig& build, const AtlasLayout& layout)
 {
     const bool mayHaveAlpha = !build.channelsGiven && build.settings.format.keepsAlpha();
-    return mayHaveAlpha &&
-                   std::any_of(layout.photos.begin(), layout.photos.end(),
-                               [&](const AtlasPhoto& photo) { return isTranslucent(build, photo); })
-               ? 4
-               : build.settings.channels;
+    if (mayHaveAlpha &&
+        std::any_of(layout.photos.begin(), layout.photos.end(),
+                    [&](const AtlasPhoto& photo) { return isTranslucent(build, photo); }))
+        build.settings.channels = 4;
+    // Else coarse levels would have an opaque rim around what is transparent.
+    if (build.settings.channels == 4 && !build.backgroundGiven)
+        build.settings.background[3] = 0;
 }
 
 TileStoreOrigin originOf(const BuildConfig& build, const AtlasLayout& layout)
@@ -315,7 +318,7 @@ int run(const Arguments& arguments)
         build.makeLayout ? makeLayout(build, outcome.failures) : readAtlasLayout(build.layout);
     if (build.makeLayout)
         writeAtlasLayout(build.layout, outcome.layout);
-    build.settings.channels = channelsOf(build, outcome.layout);
+    chooseChannels(build, outcome.layout);
     warnOfLostAlpha(build, outcome.layout);
     outcome.layoutSeconds = layoutTime.seconds();
     if (!build.atlas.empty())

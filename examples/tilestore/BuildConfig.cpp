@@ -224,6 +224,7 @@ BuildConfig readBuildConfig(const Arguments& arguments)
     if (const std::string memory = textOf(config, "memory"); !memory.empty())
         build.settings.maxBytes = parseBytes(memory, "memory");
     build.channelsGiven = config.contains("channels");
+    build.backgroundGiven = config.contains("background");
     build.atlas = textOf(config, "atlas");
     build.atlasSide = numberOf(config, "atlasSide", build.atlasSide, std::int64_t(1) << 30);
     build.padding = int(numberOf(config, "padding", -1, 65536));

@@ -33,7 +33,7 @@ struct BuildConfig
     std::int64_t atlasSide = 65500;
     bool updatable = true;
     bool durable = true;
-    bool channelsGiven = false;
+    bool channelsGiven = false, backgroundGiven = false;
 };
 
 /// The options of `build` besides --help and --json.

@@ -60,7 +60,7 @@ int runShard(BuildConfig build, const Arguments& arguments)
     const TileShard shard = shardOf(arguments.get("--shard", ""));
     std::vector<std::string> failures;
     const AtlasLayout layout = sharedLayout(build, failures);
-    build.settings.channels = channelsOf(build, layout);
+    chooseChannels(build, layout);
     TilePackWriter::Options options;
     options.durable = build.durable;
     const TileBuildReport report =

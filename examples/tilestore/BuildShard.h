@@ -17,9 +17,9 @@ osgPagedTexture::AtlasLayout makeLayout(const BuildConfig& build,
 osgPagedTexture::TileStoreOrigin originOf(const BuildConfig& build,
                                           const osgPagedTexture::AtlasLayout& layout);
 
-/// How many the tiles get: 4 where nothing is asked for, and a photograph and the format have
-/// alpha.
-int channelsOf(const BuildConfig& build, const osgPagedTexture::AtlasLayout& layout);
+/// Gives the tiles 4 channels where nothing is asked for, and a photograph and the format have
+/// alpha; with 4, the background is transparent where no other is asked for.
+void chooseChannels(BuildConfig& build, const osgPagedTexture::AtlasLayout& layout);
 
 /// `build --shard I/N`. Returns the exit status.
 int runShard(BuildConfig build, const Arguments& arguments);
