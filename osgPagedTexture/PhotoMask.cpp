@@ -140,12 +140,29 @@ PhotoMask MaskRenderer::render(const Photo& photo, const MaskSettings& settings)
     return mask;
 }
 
+namespace
+{
+
+bool hasInterface(osg::GraphicsContext::WindowingSystemInterfaces& interfaces,
+                  const std::string& name)
+{
+    for (const auto& each : interfaces.getInterfaces())
+        if (each->getName() == name)
+            return true;
+    return false;
+}
+
+} // namespace
+
 osg::ref_ptr<osg::GraphicsContext> makeOffscreenContext()
 {
+    // Whatever else the program has: a window system may have no display.
     osg::ref_ptr<osg::GraphicsContext::Traits> traits = new osg::GraphicsContext::Traits;
     traits->width = traits->height = 16;
     traits->pbuffer = true;
-    if (osg::GraphicsContext::getWindowingSystemInterfaces()->getInterfaces().empty())
+    traits->windowingSystemPreference = "EGL";
+    if (!hasInterface(*osg::GraphicsContext::getWindowingSystemInterfaces(),
+                      traits->windowingSystemPreference))
     {
         osgDB::Registry* registry = osgDB::Registry::instance();
         const std::string plugin = registry->createLibraryNameForExtension("egl");
