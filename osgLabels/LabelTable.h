@@ -60,8 +60,8 @@ public:
 
     /// For texts in proportional fonts, before the first one: how far each code reaches, in em. The
     /// width of a text of 32 codes and more and sums of its advances are then stored with it, as
-    /// TextStore tells: about 4 bytes for each 16 codes. `advanceOf` is called while the table is locked, from the thread
-    /// that sets, and must not use the table.
+    /// TextStore tells: about 4 bytes for each 16 codes. `advanceOf` is called while the table is
+    /// locked, from the thread that sets, and must not use the table.
     void setAdvances(AdvanceOf advanceOf);
 
     /// Gives an identifier a text; an empty one is none. Longer texts than MaxLength are cut, which

@@ -76,10 +76,11 @@ struct ChainLoaderSettings
 ///
 /// A file that cannot be read (missing, no rights, disk error, changed meanwhile) is tried again
 /// after 1, 4 and 16 s. One that is damaged and was written less than 10 s ago may still be on its
-/// way: it is tried again as long as it changes, so that one that stays as it is takes 1 s. Then the
-/// request fails. Other failures are final at once. Each file's failure is told once by takeMessages(),
-/// also where several requests meet it. No thread exists before the first request; the destructor
-/// waits for the jobs at work, which end at the next rows of their picture. Any thread.
+/// way: it is tried again as long as it changes, so that one that stays as it is takes 1 s. Then
+/// the request fails. Other failures are final at once. Each file's failure is told once by
+/// takeMessages(), also where several requests meet it. No thread exists before the first request;
+/// the destructor waits for the jobs at work, which end at the next rows of their picture. Any
+/// thread.
 class OSGPAGEDTEXTURE_EXPORT ChainLoader
 {
 public:

@@ -28,7 +28,8 @@ void halveLight(const std::uint8_t* upper, const std::uint8_t* lower, std::size_
     }
 }
 
-/// The mean that begins at every sample, which compilers do many at a time, then those of the pairs.
+/// The mean that begins at every sample, which compilers do many at a time, then those of the
+/// pairs.
 template <int Channels>
 void halvePlain(const std::uint8_t* upper, const std::uint8_t* lower, std::size_t texels,
                 std::uint8_t* half)

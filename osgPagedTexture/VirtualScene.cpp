@@ -19,7 +19,8 @@ namespace osgPagedTexture
 namespace
 {
 
-/// Finds virtual textures, and puts them in the place of those that name a store by their user value.
+/// Finds virtual textures, and puts them in the place of those that name a store by their user
+/// value.
 class Installer : public osg::NodeVisitor
 {
 public:
@@ -85,7 +86,8 @@ private:
     }
 
     const std::string _store;
-    std::vector<osg::ref_ptr<osg::StateSet>> _others; ///< With a texture in unit 0, naming no store.
+    std::vector<osg::ref_ptr<osg::StateSet>>
+        _others; ///< With a texture in unit 0, naming no store.
     std::vector<osg::ref_ptr<osg::Texture2D>> _replaced;
 };
 

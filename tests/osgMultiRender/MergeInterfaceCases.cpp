@@ -31,9 +31,8 @@ void main() { gl_FragColor = texture2D(wood, uv) * 0.5 + texture2D(model, uv.yx)
 /// A texture of its own in a member, the model's in others.
 Rendering samplersInStructs()
 {
-    Rendering one = mergeCase(
-        "samplersInStructs",
-        Head + R"(struct Layer { sampler2D map; vec2 scale; };
+    Rendering one =
+        mergeCase("samplersInStructs", Head + R"(struct Layer { sampler2D map; vec2 scale; };
 struct Surface { Layer layers[2]; sampler2D maps[2]; vec3 tint; };
 uniform Surface surface;
 uniform Layer others[2];
