@@ -90,10 +90,25 @@ public:
         }
         catch (const CLI::ParseError& error)
         {
-            std::fprintf(stderr, "%s: %s; see --help\n", get_name().c_str(), error.what());
+            std::fprintf(stderr, "%s: %s; see --help\n", get_name().c_str(),
+                         describe(error).c_str());
             return failure;
         }
         return std::nullopt;
+    }
+
+private:
+    /// An option that there is none of is the cause when its value is too many or taken for
+    /// something else, too.
+    std::string describe(const CLI::ParseError& error) const
+    {
+        const std::vector<std::string> extras = remaining(true);
+        for (const std::string& extra : extras)
+            if (extra.size() > 1 && extra.front() == '-')
+                return "unknown option '" + extra + "'";
+        if (dynamic_cast<const CLI::ExtrasError*>(&error) && !extras.empty())
+            return "'" + extras.front() + "' is one argument too many";
+        return error.what();
     }
 };
 

@@ -225,10 +225,10 @@ TEST_F(OsgCityTest, wrongSwitchesAreNamed)
               "osgcity: --trees: needs a whole number from 0 to 100000, not 'many'; see --help\n");
     EXPECT_EQ(errorOf({"--origin", "nan", "x.osgb"}),
               "osgcity: --origin: needs a number from -1e+09 to 1e+09, not 'nan'; see --help\n");
-    EXPECT_EQ(errorOf({"--towers", "x.osgb"}),
-              "osgcity: The following argument was not expected: --towers; see --help\n");
+    EXPECT_EQ(errorOf({"--towers", "3", "x.osgb"}),
+              "osgcity: unknown option '--towers'; see --help\n");
     EXPECT_EQ(errorOf({"a.osgb", "b.osgb"}),
-              "osgcity: The following argument was not expected: b.osgb; see --help\n");
+              "osgcity: 'b.osgb' is one argument too many; see --help\n");
     EXPECT_NE(errorOf({"/no/such/folder/x.osgb"}).find("cannot write"), std::string::npos);
     EXPECT_NE(
         errorOf({"--labels", "/no/such/x.csv", folder.file("x.osgb")}).find("'/no/such/x.csv'"),

@@ -278,7 +278,7 @@ TEST_F(OsgPhotoCityTest, wrongSwitchesAndWhatCannotBeReachedAreNamed)
               "osgphotocity: --bytes: needs a size such as 1.5GiB, 200MiB, 64KiB or 1000000, not "
               "'much'; see --help\n");
     EXPECT_EQ(errorOf({"a.osgb", "b.osgb"}),
-              "osgphotocity: The following argument was not expected: b.osgb; see --help\n");
+              "osgphotocity: 'b.osgb' is one argument too many; see --help\n");
     EXPECT_EQ(errorOf({"/no/such/folder/x.osgb"}),
               "osgphotocity: cannot write '/no/such/folder/x.osgb': no such folder\n");
     EXPECT_NE(errorOf({folder.file("x.nothing")}).find("no plugin"), std::string::npos);
