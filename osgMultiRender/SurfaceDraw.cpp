@@ -181,7 +181,7 @@ void SurfaceFrame::reportFailure(osg::State& state, SurfaceVariant& variant)
         return;
     _group->addFailure(_stage->getCamera());
     const std::string& name = variant.getProgram()->getName();
-    OSG_WARN << _group->libraryName() << "::" << _group->className() << ": program '" << name
+    OSG_WARN << _group->getCompoundClassName() << ": program '" << name
              << "' does not compile or link, its surfaces show the fixed-function look instead:\n"
              << errorsOf(*variant.getProgram(), state) << std::flush;
 }
@@ -248,7 +248,7 @@ void SurfaceFrame::writePlan(osg::RenderInfo& renderInfo)
     for (const Pass& pass : _passes)
     {
         Plan own = plan;
-        own.kit = std::string(pass.group->libraryName()) + "::" + pass.group->className();
+        own.kit = pass.group->getCompoundClassName();
         if (!isEmpty())
             pass.pass->fillPlan(own);
         pass.group->setPlan(_stage->getCamera(), std::move(own));

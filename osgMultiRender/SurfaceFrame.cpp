@@ -77,8 +77,8 @@ void SurfaceFrame::sayTooOld(float glVersion)
     std::call_once(said,
                    [&]
                    {
-                       OSG_WARN << _group->libraryName() << "::" << _group->className()
-                                << ": OpenGL " << glVersion << " with GLSL " << _languageVersion
+                       OSG_WARN << _group->getCompoundClassName() << ": OpenGL " << glVersion
+                                << " with GLSL " << _languageVersion
                                 << " is older than 3.3, so models keep their fixed-function look; "
                                    "a driver with the OpenGL 3.3 compatibility profile is needed"
                                 << std::endl;

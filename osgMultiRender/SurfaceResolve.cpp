@@ -215,7 +215,7 @@ bool SurfaceFrame::links(osg::State& state, SurfaceVariant& variant, const Surfa
     {
         variant.failed = true;
         const SurfaceGroup& group = *_passes[passes[OutputRole]].group;
-        OSG_WARN << group.libraryName() << "::" << group.className()
+        OSG_WARN << group.getCompoundClassName()
                  << ": a program can't be wrapped, its surfaces are drawn without what "
                  << group.className() << " adds: " << variant.getError() << std::endl;
     }
@@ -238,9 +238,9 @@ bool SurfaceFrame::links(osg::State& state, SurfaceVariant& variant, const Surfa
     if (!variant.failed.exchange(true))
     {
         const SurfaceGroup& group = *_passes[passes[OutputRole]].group;
-        OSG_WARN << group.libraryName() << "::" << group.className() << ": program '"
-                 << program.getName() << "' does not compile or link together with what "
-                 << group.className() << " adds, its surfaces are drawn without that:\n"
+        OSG_WARN << group.getCompoundClassName() << ": program '" << program.getName()
+                 << "' does not compile or link together with what " << group.className()
+                 << " adds, its surfaces are drawn without that:\n"
                  << errorsOf(program, state) << std::flush;
     }
     return false;

@@ -109,7 +109,9 @@ std::string makeFolder()
 {
     std::error_code error;
     const fs::path base = fs::temp_directory_path(error);
-    std::string pattern = ((error ? fs::path(".") : base) / "osgPagedTexture-XXXXXX").string();
+    // mkdtemp() puts letters of its own for six X at the end.
+    const std::string name = "osgPagedTexture-" + std::string(6, 'X');
+    std::string pattern = ((error ? fs::path(".") : base) / name).string();
     return mkdtemp(pattern.data()) ? pattern : std::string();
 }
 

@@ -34,8 +34,7 @@ public:
     void apply(osg::Node& node) override
     {
         const int outerBumpUnit = _bumpUnit;
-        if (node.className() == std::string("BumpMapping") &&
-            node.libraryName() == std::string("osgFX"))
+        if (node.getCompoundClassName() == "osgFX::BumpMapping")
             osgDB::ClassInterface().getProperty(&node, "NormalMapTextureUnit", _bumpUnit);
         osg::StateSet* stateSet = node.getStateSet();
         if (stateSet)

@@ -137,7 +137,7 @@ bool hasUser(osgViewer::View& view)
         view.getViewerBase()->getWindows(windows);
     return std::any_of(windows.begin(), windows.end(),
                        [](const osgViewer::GraphicsWindow* window)
-                       { return std::string(window->libraryName()) != "osgHeadless"; });
+                       { return window->getCompoundClassName() != "osgHeadless::Window"; });
 }
 
 void listKeysOnce(osgGA::EventVisitor& visitor)
