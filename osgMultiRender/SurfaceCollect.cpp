@@ -196,40 +196,54 @@ void SurfaceFrame::addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* pro
     ++_proxies;
 }
 
-void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
-                          osgUtil::RenderBin& to)
+void SurfaceFrame::mirrorLeaves(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
+                                osgUtil::RenderBin& to)
 {
     std::vector<osgUtil::RenderLeaf*> leaves;
     for (osgUtil::StateGraph* graph : from.getStateGraphList())
         for (const auto& leaf : graph->_leaves)
             leaves.push_back(leaf.get());
-    if (!leaves.empty())
+    if (leaves.empty())
+        return;
+    _bins.push_back(std::move(leaves));
+    const std::size_t bin = _bins.size() - 1;
+    const auto* stateSet = _group->getProxyStateSet(bin);
+    osgUtil::StateGraph* graph = proxies.find_or_insert(stateSet);
+    if (graph->leaves_empty())
+        to.addStateGraph(graph);
+    if (isOrdered(to))
+        for (std::size_t i = 0; i < _bins[bin].size(); ++i)
+            addProxy(*graph,
+                     new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(), *_bins[bin][i]));
+    else
+        addProxy(*graph, new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
+                                       *_bins[bin].front()));
+    _isOrdered.push_back(isOrdered(to));
+}
+
+/// In the order in which bins are drawn: those with negative numbers come before the leaves.
+void SurfaceFrame::mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
+                          osgUtil::RenderBin& to)
+{
+    const auto mirrorInner = [&](int number, osgUtil::RenderBin& inner)
     {
-        _bins.push_back(std::move(leaves));
-        const std::size_t bin = _bins.size() - 1;
-        const auto* stateSet = _group->getProxyStateSet(bin);
-        osgUtil::StateGraph* graph = proxies.find_or_insert(stateSet);
-        if (graph->leaves_empty())
-            to.addStateGraph(graph);
-        if (isOrdered(to))
-            for (std::size_t i = 0; i < _bins[bin].size(); ++i)
-                addProxy(*graph, new ProxyLeaf(*this, bin, i, _bins[bin][i]->_drawable.get(),
-                                               *_bins[bin][i]));
-        else
-            addProxy(*graph, new ProxyLeaf(*this, bin, ProxyLeaf::All, new BinDrawable(*this, bin),
-                                           *_bins[bin].front()));
-        _isOrdered.push_back(isOrdered(to));
-    }
-    for (const auto& [number, inner] : from.getRenderBinList())
-        if (const osgUtil::RenderLeaf* leaf = anyLeafOf(*inner))
-        {
-            const osg::StateSet* asked = askedForBin(*leaf, number);
-            // A bin that does not nest belongs to the stage of the view, wherever the group lies.
-            const bool escapes = &from == _private.get() && asked && !asked->getNestRenderBins();
-            osgUtil::RenderBin& outer = escapes ? *_stage : to;
-            mirror(proxies, *inner,
-                   *outer.find_or_insert(number, asked ? asked->getBinName() : "RenderBin"));
-        }
+        const osgUtil::RenderLeaf* leaf = anyLeafOf(inner);
+        if (!leaf)
+            return;
+        const osg::StateSet* asked = askedForBin(*leaf, number);
+        // A bin that does not nest belongs to the stage of the view, wherever the group lies.
+        const bool escapes = &from == _private.get() && asked && !asked->getNestRenderBins();
+        osgUtil::RenderBin& outer = escapes ? *_stage : to;
+        mirror(proxies, inner,
+               *outer.find_or_insert(number, asked ? asked->getBinName() : "RenderBin"));
+    };
+    const auto& bins = from.getRenderBinList();
+    const auto later = bins.lower_bound(0);
+    for (auto bin = bins.begin(); bin != later; ++bin)
+        mirrorInner(bin->first, *bin->second);
+    mirrorLeaves(proxies, from, to);
+    for (auto bin = later; bin != bins.end(); ++bin)
+        mirrorInner(bin->first, *bin->second);
 }
 
 void SurfaceFrame::forEachLight(

@@ -132,9 +132,6 @@ std::size_t SurfaceFrame::drawAs(osg::RenderInfo& renderInfo, const osg::StateSe
             items.push_back(item);
             items.back().variant = variantOf(key, surface->second);
         });
-    std::stable_sort(items.begin(), items.end(),
-                     [](const SurfaceItem& a, const SurfaceItem& b)
-                     { return std::less<>()(a.variant, b.variant); });
     const PassState pass(*renderInfo.getState(), over);
     draw(renderInfo, items.data(), items.size());
     return refused;

@@ -138,6 +138,8 @@ protected:
 
 private:
     void addProxy(osgUtil::StateGraph& graph, osgUtil::RenderLeaf* proxy);
+    void mirrorLeaves(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from,
+                      osgUtil::RenderBin& to);
     void mirror(osgUtil::StateGraph& proxies, osgUtil::RenderBin& from, osgUtil::RenderBin& to);
     void prepare(osg::RenderInfo& renderInfo);
     struct Pass

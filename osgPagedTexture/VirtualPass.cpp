@@ -70,6 +70,14 @@ VirtualPass::Code VirtualPass::codeOf(const VirtualTexture& texture)
     return found->second;
 }
 
+/// What the sampling of a texture needs beyond a clamped trilinear lookup.
+std::uint32_t VirtualPass::featuresOf(const Code& code) const
+{
+    return ((code.sampling & 255) > 1 ? Taps : 0u) | (code.sampling >> 8 ? Wraps : 0u) |
+           (!_settings.wait && _settings.fadeSeconds > 0.0 ? Fades : 0u) |
+           (_settings.show != VirtualShow::Picture ? Shows : 0u);
+}
+
 void VirtualPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf&, bool,
                            SurfaceKey& key, std::uint32_t& number)
 {
@@ -89,7 +97,7 @@ void VirtualPass::classify(const SurfaceState& state, const osgUtil::RenderLeaf&
         textures[unit] = texture;
         codes[unit] = code;
         key.textures[unit].sampled = 1;
-        key.texture |= 1u << unit;
+        key.texture |= 1u << unit | featuresOf(code);
     }
     if (!key.texture)
         return;
@@ -104,7 +112,11 @@ SurfaceSnippet VirtualPass::makeSnippet(const SurfaceKey& key) const
     SurfaceSnippet snippet;
     if (key.texture & Sampled)
     {
-        snippet.fragment = shaderText("osgPagedTexture/virtual.glsl", shaders::virtual_glsl);
+        for (const auto& [bit, name] : {std::pair(Taps, "Taps"), std::pair(Wraps, "Wraps"),
+                                        std::pair(Fades, "Fades"), std::pair(Shows, "Shows")})
+            if (key.texture & bit)
+                snippet.fragment += std::string("#define osgPagedTexture_") + name + "\n";
+        snippet.fragment += shaderText("osgPagedTexture/virtual.glsl", shaders::virtual_glsl);
         snippet.samplers = {{"osgPagedTexture_table", int(VirtualContext::TableUnit)},
                             {"osgPagedTexture_pages", int(VirtualContext::PagesUnit)}};
     }
@@ -189,7 +201,7 @@ void VirtualPass::sendFrame(osg::State& state) const
     static const unsigned int slotsName = osg::Uniform::getNameID("osgPagedTexture_slots");
     static const unsigned int timeRowName = osg::Uniform::getNameID("osgPagedTexture_timeRow");
     static const unsigned int showName = osg::Uniform::getNameID("osgPagedTexture_show");
-    static const unsigned int texelName = osg::Uniform::getNameID("osgPagedTexture_texel");
+    static const unsigned int texelName = osg::Uniform::getNameID("osgPagedTexture_pixel");
     static const unsigned int timeName = osg::Uniform::getNameID("osgPagedTexture_time");
     const auto& program = *state.getLastAppliedProgramObject();
     const auto* gl = state.get<osg::GLExtensions>();

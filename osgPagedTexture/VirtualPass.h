@@ -41,7 +41,11 @@ private:
         Sampled = 0xf,      ///< One a unit.
         Feedback = 1u << 4, ///< Needs of pages are drawn.
         Cutout = 1u << 5,   ///< Of feedback: what is transparent hides nothing.
-        Sheer = 1u << 6     ///< Of feedback: every other pixel hides what is behind.
+        Sheer = 1u << 6,    ///< Of feedback: every other pixel hides what is behind.
+        Taps = 1u << 7,     ///< Several along a footprint.
+        Wraps = 1u << 8,    ///< Coordinates beyond 0 to 1 repeat or mirror.
+        Fades = 1u << 9,    ///< New pages fade in.
+        Shows = 1u << 10    ///< Levels or borders of pages.
     };
     /// How a unit is sampled.
     struct Code
@@ -52,6 +56,7 @@ private:
     using Codes = std::array<Code, Units>;
 
     Code codeOf(const VirtualTexture& texture);
+    std::uint32_t featuresOf(const Code& code) const;
     void sendFrame(osg::State& state) const;
     bool rekey(const osgMultiRender::SurfaceItem& item, osgMultiRender::SurfaceKey& key) const;
     void drawFeedback(osg::RenderInfo& renderInfo, osgMultiRender::SurfaceFrame& frame,

@@ -79,7 +79,7 @@ bool VirtualPass::rekey(const SurfaceItem& item, SurfaceKey& key) const
     SurfaceKey plain;
     plain.clip = key.clip;
     plain.instance = key.instance;
-    plain.texture = (key.texture & Sampled) | Feedback;
+    plain.texture = (key.texture & (Sampled | Taps | Wraps)) | Feedback;
     if (state.isOn(SurfaceState::AlphaTest))
         plain.texture |= Cutout;
     else if (state.isOn(SurfaceState::Blend))

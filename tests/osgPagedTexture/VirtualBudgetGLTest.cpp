@@ -133,38 +133,6 @@ TEST_F(VirtualBudgetGLTest, twoContextsShowTheSameSceneEachFromItsPlace)
     _viewer.getViewer().getCamera()->getGraphicsContext()->makeCurrent();
 }
 
-TEST_F(VirtualBudgetGLTest, severalTexturesAndUnitsShareTheSlots)
-{
-    OSGKITS_NEED_GL(_viewer);
-    for (const unsigned int seed : {11u, 12u})
-        virtuals::buildStore(_folder.file("t" + std::to_string(seed)),
-                             virtuals::makeLevels(512, 512, seed));
-    const auto model = [&](bool isVirtual)
-    {
-        const auto texture = [&](unsigned int seed) -> osg::ref_ptr<osg::Texture2D>
-        {
-            if (isVirtual)
-                return virtuals::makeVirtualTexture(_folder.file("t" + std::to_string(seed))).get();
-            return virtuals::makePlainTexture(virtuals::makeLevels(512, 512, seed));
-        };
-        osg::ref_ptr<osg::Group> group = new osg::Group;
-        group->addChild(virtuals::makeFloor(texture(11), 4.0f));
-        const auto other = virtuals::makeFloor(texture(12), 10.0f);
-        // Both on one surface: the second one is modulated by the first.
-        auto* geometry = other->getDrawable(0)->asGeometry();
-        geometry->setTexCoordArray(1, geometry->getTexCoordArray(0));
-        other->getOrCreateStateSet()->setTextureAttributeAndModes(1, texture(11));
-        group->addChild(other);
-        return group;
-    };
-    const auto scene = virtuals::makeScene(model(true));
-    const auto plain = model(false);
-    const auto camera = lookFrom({0.5, 0.0, 5.0});
-    const support::CompareImage same{1.0 / 255.0, 0.001, 4.0 / 255.0};
-    EXPECT_TRUE(same(virtuals::settle(_viewer, *scene, scene, camera),
-                     _viewer.render(plain, camera, 320, 240), "virtual.units"));
-}
-
 TEST_F(VirtualBudgetGLTest, thousandJumpsLeaveNothingBehind)
 {
     OSGKITS_NEED_GL(_viewer);

@@ -101,7 +101,7 @@ protected:
             buildPattern(store, 26000, tileSide);
         return virtuals::makeScene(
             virtuals::makeFloor(virtuals::makeVirtualTexture(store), float(Ground)),
-            "compression=blocks,quality=fast,watch=off," + settings, false);
+            "compression=blocks,quality=fast,fade=0.25,watch=off," + settings, false);
     }
 
     FrameTimes fly(osg::Node* scene, const std::function<void(int)>& after = {}, int rounds = 2)
@@ -177,6 +177,57 @@ TEST_F(VirtualFlyThroughBenchmark, frameTimes)
               }
               return times;
           }());
+}
+
+// What a frame at rest costs where the camera looks along the ground, interleaved.
+TEST_F(VirtualFlyThroughBenchmark, costOfSamplingAtRest)
+{
+    OSGKITS_NEED_GL(_viewer);
+    struct Candidate
+    {
+        std::string name;
+        osg::ref_ptr<osg::Node> scene;
+        FrameTimes times{};
+    };
+    std::vector<Candidate> candidates;
+    candidates.push_back({"untextured", virtuals::makeFloor(nullptr, float(Ground)), FrameTimes()});
+    const auto levels = virtuals::makeLevels(4096, 4096);
+    for (const float taps : {1.0f, 4.0f, 16.0f})
+    {
+        const auto texture = virtuals::makePlainTexture(levels);
+        texture->setMaxAnisotropy(taps);
+        candidates.push_back({"plain, " + std::to_string(int(taps)) + " taps",
+                              virtuals::makeFloor(texture, float(Ground)),
+                              {}});
+    }
+    for (const char* const settings :
+         {"compression=none,aniso=1", "compression=none,aniso=4", "compression=none,aniso=16",
+          "aniso=1", "aniso=4", "aniso=16"})
+        candidates.push_back(
+            {settings, makeScene(std::string("gpu=128,") + settings), FrameTimes()});
+    for (Candidate& candidate : candidates)
+    {
+        for (int i = 0; i < 200; ++i)
+        {
+            _viewer.render(candidate.scene, cameraAt(0), Width, Height);
+            const auto* scene = dynamic_cast<const VirtualScene*>(candidate.scene.get());
+            if (!scene || (i > 20 && virtuals::countOf(*scene, "feedback") == 0.0 &&
+                           virtuals::countOf(*scene, "pages.missing") == 0.0))
+                break;
+        }
+    }
+    for (int round = 0; round < 15; ++round)
+        for (Candidate& candidate : candidates)
+        {
+            const Clock::time_point start = Clock::now();
+            _viewer.render(candidate.scene, cameraAt(0), Width, Height);
+            candidate.times.add(milliseconds(start));
+        }
+    const double bare = candidates.front().times.getPercentile(50.0);
+    for (const Candidate& candidate : candidates)
+        std::printf("%-28s %6.1f ms, %5.1f ns a pixel more than untextured\n",
+                    candidate.name.c_str(), candidate.times.getPercentile(50.0),
+                    (candidate.times.getPercentile(50.0) - bare) * 1e6 / (Width * Height));
 }
 
 TEST_F(VirtualFlyThroughBenchmark, timeUntilSharpAfterAJump)
