@@ -58,6 +58,8 @@ public:
     {
         /// Reduced pictures of a view at rest, before those of all its pixels.
         static constexpr unsigned int CalmPictures = 8;
+        /// Pictures of all pixels that a frame takes which waits for its pages.
+        static constexpr unsigned int WaitingPictures = 4;
 
         std::unique_ptr<VirtualFeedback> feedback;
         unsigned int number = 0;     ///< With the pager.

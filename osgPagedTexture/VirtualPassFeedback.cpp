@@ -206,7 +206,7 @@ void VirtualPass::waitForPages(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     {
         const osgMultiRender::FramebufferVisit visit(state);
         // Taps along footprints are chosen by chance; the pager remembers all of them.
-        for (unsigned int picture = 0; picture < 4; ++picture)
+        for (unsigned int picture = 0; picture < VirtualContext::View::WaitingPictures; ++picture)
         {
             drawFeedback(renderInfo, frame, view, 1, picture);
             pager.report(view.number, view.feedback->readNow());

@@ -84,7 +84,8 @@ void VirtualResources::makePager(osg::State& state)
     settings.cacheBytes = _settings.cpuBytes();
     settings.threads = _settings.threads;
     settings.watchSeconds = _settings.watch ? 1.0 : 0.0;
-    settings.rememberReports = int(VirtualContext::View::CalmPictures);
+    settings.rememberReports = _settings.wait ? int(VirtualContext::View::WaitingPictures)
+                                              : int(VirtualContext::View::CalmPictures);
     side = pageSideOf(grids.front(), settings.format);
     GLint maxSide = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &maxSide);

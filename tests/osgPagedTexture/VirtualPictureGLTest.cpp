@@ -5,6 +5,7 @@
 #include <support/CompareImage.h>
 #include <support/NotifyCapture.h>
 
+#include <osg/GLExtensions>
 #include <osg/Geometry>
 
 #include <gtest/gtest.h>
@@ -217,6 +218,27 @@ TEST_F(VirtualPictureGLTest, withoutWaitingTheSamePictureComes)
     }
     // At rest nothing is drawn for feedback.
     EXPECT_EQ(virtuals::countOf(*going, "feedback"), 0.0);
+}
+
+TEST_F(VirtualPictureGLTest, withoutFencesTheSamePictureComes)
+{
+    OSGKITS_NEED_GL(_viewer);
+    const std::string store = build(virtuals::makeLevels(1024, 1024, 7));
+    const auto waiting =
+        virtuals::makeScene(virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f));
+    const auto camera = lookFrom({0.0, -3.0, 3.0});
+    const auto expected = virtuals::settle(_viewer, *waiting, waiting, camera);
+    auto* gl = osg::GLExtensions::Get(
+        _viewer.getViewer().getCamera()->getGraphicsContext()->getState()->getContextID(), true);
+    const auto fence = gl->glFenceSync;
+    ASSERT_TRUE(fence) << "no proof";
+    gl->glFenceSync = nullptr;
+    const auto going = virtuals::makeScene(
+        virtuals::makeFloor(virtuals::makeVirtualTexture(store), 10.0f), "", false);
+    const auto actual = virtuals::settle(_viewer, *going, going, camera);
+    gl->glFenceSync = fence;
+    EXPECT_TRUE(Same(actual, expected, "virtual.noFences"));
+    EXPECT_GT(virtuals::countOf(*going, "pages.uploaded"), 20.0) << "no proof";
 }
 
 TEST_F(VirtualPictureGLTest, compressedPagesDifferByTheEncodersError)

@@ -124,6 +124,25 @@ osg::ref_ptr<osg::Image> WindowViews::getPicture(std::size_t view) const
     return capture ? capture->get() : nullptr;
 }
 
+OwnWindow::OwnWindow(osg::Node& scene, const CameraSpec& spec, int width, int height)
+{
+    const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(width, height);
+    if (!window)
+        return;
+    _view = new osgViewer::View;
+    osg::Camera& camera = *_view->getCamera();
+    _capture = capture(camera, window, 0, 0, width, height);
+    camera.setViewMatrix(spec.view);
+    camera.setProjectionMatrix(spec.projection);
+    _view->setLightingMode(osg::View::NO_LIGHT);
+    _view->setSceneData(&scene);
+}
+
+osg::ref_ptr<osg::Image> OwnWindow::getPicture() const
+{
+    return _capture ? static_cast<const Capture&>(*_capture).get() : nullptr;
+}
+
 osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, int width,
                                     int height)
 {

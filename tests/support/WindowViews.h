@@ -5,6 +5,7 @@
 
 #include <osg/Camera>
 #include <osg/Image>
+#include <osgViewer/View>
 
 #include <memory>
 #include <string>
@@ -39,6 +40,23 @@ public:
 private:
     struct State;
     std::unique_ptr<State> _state;
+};
+
+/// A view with a window and a context of its own, for a CompositeViewer.
+class OwnWindow
+{
+public:
+    /// A window that can't be made is a failure of the running test; getView() is null then.
+    OwnWindow(osg::Node& scene, const CameraSpec& camera, int width, int height);
+
+    osgViewer::View* getView() const { return _view; }
+
+    /// Of the last frame; null before it. Any thread.
+    osg::ref_ptr<osg::Image> getPicture() const;
+
+private:
+    osg::ref_ptr<osgViewer::View> _view;
+    osg::ref_ptr<osg::Camera::DrawCallback> _capture;
 };
 
 /// The picture of a window whose left and right halves are slave cameras of one viewer, as two
