@@ -132,6 +132,18 @@ private:
 MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
                               std::vector<MergedFile>& files);
 
+/// Finds what the code of a shader object of `stage` uses: built-ins, globals, derivatives,
+/// discard.
+void findFeatures(MergeProgram& program, MergeStage& stage, const MergeShader& shader,
+                  const std::vector<MergedFile>& files);
+
+/// Finds whether `discard` stands in a function that another one calls.
+void findDiscards(MergeProgram& program);
+
+/// Marks globals whose initializers read what main() sets up first: varyings, and what depends on
+/// them.
+void findTaints(MergeProgram& program, MergeStage& stage, const std::vector<MergedFile>& files);
+
 /// The condition under which the rendering's alpha test lets a fragment pass, of an expression for
 /// its alpha; empty where all do.
 std::string alphaTestOf(const RenderingState& state, const std::string& alpha);
