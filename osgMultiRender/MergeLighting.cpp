@@ -32,7 +32,8 @@ public:
         std::ostringstream text;
         text.imbue(std::locale::classic());
         text.precision(9); // all of a float
-        text << std::showpoint << number;
+        // Products of what a file says may be beyond all numbers.
+        text << std::showpoint << (std::isfinite(number) ? number : 0.0f);
         return add(text.str());
     }
     template <std::size_t N> Constructor& add(const std::array<float, N>& vector)
