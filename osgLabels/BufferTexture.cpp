@@ -51,14 +51,9 @@ GLenum formatOf(unsigned int words)
 } // namespace
 
 BufferTexture::BufferTexture(unsigned int contextID, unsigned int wordsPerTexel, bool isPaged)
-    : _contextID(contextID), _wordsPerTexel(wordsPerTexel), _isPaged(isPaged)
+    : ContentTexture(internalFormatOf(wordsPerTexel), NEAREST), _contextID(contextID),
+      _wordsPerTexel(wordsPerTexel), _isPaged(isPaged)
 {
-    setInternalFormat(static_cast<GLint>(internalFormatOf(wordsPerTexel)));
-    setFilter(MIN_FILTER, NEAREST);
-    setFilter(MAG_FILTER, NEAREST);
-    setWrap(WRAP_S, CLAMP_TO_EDGE);
-    setWrap(WRAP_T, CLAMP_TO_EDGE);
-    setUseHardwareMipMapGeneration(false);
 }
 
 BufferTexture::BufferTexture(const BufferTexture& other, const osg::CopyOp& copyop)

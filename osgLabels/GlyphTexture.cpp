@@ -35,15 +35,9 @@ struct GlyphTexture::Images
 };
 
 GlyphTexture::GlyphTexture(GLenum format, int imageWidth, int imageHeight)
-    : _format(format), _imageWidth(imageWidth), _imageHeight(imageHeight),
-      _images(std::make_shared<Images>())
+    : ContentTexture(format == GL_RGBA ? GL_RGBA8 : R8, LINEAR), _format(format),
+      _imageWidth(imageWidth), _imageHeight(imageHeight), _images(std::make_shared<Images>())
 {
-    setInternalFormat(format == GL_RGBA ? GL_RGBA8 : R8);
-    setFilter(MIN_FILTER, LINEAR);
-    setFilter(MAG_FILTER, LINEAR);
-    setWrap(WRAP_S, CLAMP_TO_EDGE);
-    setWrap(WRAP_T, CLAMP_TO_EDGE);
-    setUseHardwareMipMapGeneration(false);
 }
 
 GlyphTexture::GlyphTexture(const GlyphTexture& other, const osg::CopyOp& copyop)

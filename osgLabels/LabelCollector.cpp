@@ -161,7 +161,7 @@ std::uint32_t LabelCollector::addObject(const osg::Drawable& drawable, const osg
     const auto object = static_cast<std::uint32_t>(placeIn(_objects, _freeObjects));
     _objects[object].drawable = &drawable;
     _objects[object].identifier = addLabel(*found, path, object);
-    _objects[object].scale = _scales.numberOf(drawable, osg::computeLocalToWorld(below));
+    _objects[object].scale = _scales.hold(drawable, osg::computeLocalToWorld(below));
     _new.push_back(object);
     return object;
 }
@@ -222,6 +222,7 @@ void LabelCollector::removeObject(std::uint32_t object)
     if (!object)
         return;
     const std::uint32_t identifier = _objects[object].identifier;
+    _scales.release(_objects[object].scale);
     _objects[object] = {};
     _retiredObjects.add(object, _shared->frames);
     Label& label = _labels[identifier];
@@ -320,7 +321,7 @@ LabelCollector::Object LabelCollector::getObject(std::uint32_t object) const
     return found;
 }
 
-const osg::Matrixd* LabelCollector::getScale(const Object& object) const
+std::shared_ptr<const osg::Matrixd> LabelCollector::getScale(const Object& object) const
 {
     std::lock_guard<std::mutex> lock(_mutex);
     return _scales.get(object.scale);

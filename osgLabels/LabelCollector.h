@@ -89,7 +89,7 @@ public:
         /// the nearest instance is taken.
         std::uint32_t find(const osg::Drawable& drawable, const osg::Matrixd& localToEye);
         /// What scales an object unevenly; null for none.
-        const osg::Matrixd* scaleOf(std::uint32_t object) const
+        std::shared_ptr<const osg::Matrixd> scaleOf(std::uint32_t object) const
         {
             return _collector._scales.get(_collector._objects[object].scale);
         }
@@ -113,8 +113,8 @@ public:
     /// The objects that are new since the last call; their numbers may have been others' before.
     std::vector<std::uint32_t> takeNew();
     Object getObject(std::uint32_t object) const;
-    /// What scales it unevenly, while the collector lives; null for none.
-    const osg::Matrixd* getScale(const Object& object) const;
+    /// What scales it unevenly; null for none, and for an object that is gone.
+    std::shared_ptr<const osg::Matrixd> getScale(const Object& object) const;
     /// The object that a path from the group to a Drawable is; 0 for no label.
     std::uint32_t getObject(const osg::Group& group, const osg::NodePath& path);
     std::uint32_t getObjectCount() const; ///< All numbers are under it, the free ones too.

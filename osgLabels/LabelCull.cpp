@@ -76,8 +76,8 @@ void LabelPass::findObjects(osgUtil::CullVisitor& visitor, osgMultiRender::Surfa
         const std::uint32_t object = view.find(
             *leaf._drawable, leaf._modelview ? osg::Matrixd(*leaf._modelview) : osg::Matrixd());
         objects.emplace_back(&leaf, object);
-        if (const osg::Matrixd* scale = view.scaleOf(object))
-            _scales.emplace(&leaf, scale);
+        if (auto scale = view.scaleOf(object))
+            _scales.emplace(&leaf, std::move(scale));
     };
     {
         LabelCollector::View view(*_resources->collector, group, *visitor.getModelViewMatrix());

@@ -19,11 +19,11 @@
 namespace osgLabels
 {
 
+using osgMultiRender::ForcedOff;
+using osgMultiRender::ForcedOn;
+
 namespace
 {
-
-constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
 /// Lets draws write one sample; leaves the mask as it was.
 class OneSample
@@ -61,9 +61,9 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
         osgMultiRender::FramebufferVisit visit(state);
         osg::ref_ptr<osg::StateSet> base = new osg::StateSet;
         base->setAttribute(
-            new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), Over);
-        base->setAttribute(new osg::ColorMask, Over);
-        base->setMode(GL_BLEND, Never);
+            new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]), ForcedOn);
+        base->setAttribute(new osg::ColorMask, ForcedOn);
+        base->setMode(GL_BLEND, ForcedOff);
         {
             const osgMultiRender::PassState pushed(state, *base);
             _targets->bind(state);
@@ -79,7 +79,7 @@ void LabelPass::divert(osg::RenderInfo& renderInfo, const std::function<void()>&
 void LabelPass::clear(osg::State& state) const
 {
     osg::ref_ptr<osg::StateSet> writes = new osg::StateSet;
-    writes->setAttributeAndModes(new osg::Depth, Over);
+    writes->setAttributeAndModes(new osg::Depth, ForcedOn);
     const osgMultiRender::PassState pushed(state, *writes);
     state.apply();
     const auto& gl = LabelExtensions::instance();
@@ -147,7 +147,7 @@ void LabelPass::composite(osg::RenderInfo& renderInfo)
     pass->addUniform(new osg::Uniform("osgLabels_flippedHeight",
                                       _target.flipped ? _targets->getLayout().height : 0));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
-                       Over);
+                       ForcedOn);
     osg::ref_ptr<osg::Uniform> sample = new osg::Uniform("osgLabels_sample", 0);
     if (samples > 1)
         pass->addUniform(sample);

@@ -6,6 +6,8 @@
 #include <osgLabels/MapPass.h>
 #include <osgLabels/PrimitiveRun.h>
 
+#include <osgMultiRender/PassState.h>
+
 #include <osg/GLExtensions>
 #include <osg/Geometry>
 #include <osg/Viewport>
@@ -18,13 +20,12 @@
 namespace osgLabels
 {
 
+using osgMultiRender::ForcedOn;
 using osgMultiRender::SurfaceItem;
 using osgMultiRender::SurfaceKey;
 
 namespace
 {
-
-constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
 constexpr unsigned int indexAttribute = ChunkMesh::ObjectAttribute;
 
@@ -131,7 +132,7 @@ void LabelPass::makeUnder(osg::State& state)
 {
     _under = new osg::StateSet;
     _resources->update(state, *_under);
-    const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, Over); };
+    const auto add = [this](osg::Uniform* uniform) { _under->addUniform(uniform, ForcedOn); };
     add(new osg::Uniform("osgLabels_line",
                          osg::Vec2(_resources->settings.size, _resources->settings.gap)));
     osg::ref_ptr<osg::Uniform> looks = new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgLabels_looks",
@@ -210,7 +211,7 @@ const osg::StateSet* LabelPass::startRun()
 const osg::Matrixd* LabelPass::scaleOf(const osgUtil::RenderLeaf& leaf) const
 {
     const auto found = _scales.find(&leaf);
-    return found == _scales.end() ? nullptr : found->second;
+    return found == _scales.end() ? nullptr : found->second.get();
 }
 
 LabelPass::Frame LabelPass::frameOf(const osgUtil::RenderLeaf& leaf) const

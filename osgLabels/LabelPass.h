@@ -130,7 +130,8 @@ private:
     /// Labelled leaves in view: the index of their record; of a batch's run what is added to that
     /// of an object in its page; of a chunk that of the first object.
     std::unordered_map<const osgUtil::RenderLeaf*, std::uint32_t> _objects;
-    std::unordered_map<const osgUtil::RenderLeaf*, const osg::Matrixd*> _scales; ///< Of few.
+    std::unordered_map<const osgUtil::RenderLeaf*, std::shared_ptr<const osg::Matrixd>>
+        _scales; ///< Of few.
     unsigned int _direct = 0, _passes = 0;
     std::vector<Frame> _frames;
     std::map<std::tuple<const osg::RefMatrix*, const osg::RefMatrix*, const osg::Matrixd*>, int>

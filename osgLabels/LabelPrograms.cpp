@@ -6,6 +6,7 @@
 #include <osgLabels/Placement.h>
 #include <osgLabels/Shaders.h>
 
+#include <osgMultiRender/PassState.h>
 #include <osgMultiRender/SurfaceSource.h>
 
 #include <osg/Depth>
@@ -13,6 +14,9 @@
 
 namespace osgLabels
 {
+
+using osgMultiRender::ForcedOff;
+using osgMultiRender::ForcedOn;
 
 namespace
 {
@@ -65,8 +69,6 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
         _composites[{int(languageVersion * 100.0f), samples, defines}];
     if (stateSet)
         return stateSet.get();
-    constexpr auto on = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-    constexpr auto off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
     const std::string version = osgMultiRender::glslVersionLine(languageVersion);
     osg::ref_ptr<osg::Program> program = new osg::Program;
     program->setName("osgLabels second pass");
@@ -80,12 +82,12 @@ const osg::StateSet* LabelPrograms::getComposite(float languageVersion, int samp
     program->setThreadSafeRefUnref(true);
     stateSet = new osg::StateSet;
     stateSet->setThreadSafeRefUnref(true);
-    stateSet->setAttributeAndModes(program, on);
+    stateSet->setAttributeAndModes(program, ForcedOn);
     // The result lies at the surfaces' own depths, among those of siblings.
-    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), on);
+    stateSet->setAttributeAndModes(new osg::Depth(osg::Depth::LESS, 0.0, 1.0, true), ForcedOn);
     for (GLenum mode : {GL_BLEND, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
                         GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
-        stateSet->setMode(mode, off);
+        stateSet->setMode(mode, ForcedOff);
     const std::pair<const char*, int> samplers[] = {
         {"osgLabels_color", LabelTargets::ColorUnit},
         {"osgLabels_depths", LabelTargets::DepthUnit},

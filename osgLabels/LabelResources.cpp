@@ -124,7 +124,7 @@ void LabelResources::fitNew()
         auto record = fitted.find(key);
         if (record == fitted.end())
             record = fitted
-                         .emplace(key, recordOf(*found.drawable, collector->getScale(found),
+                         .emplace(key, recordOf(*found.drawable, collector->getScale(found).get(),
                                                 settings.texCoord, found.identifier))
                          .first;
         record->second.identifier = found.identifier;

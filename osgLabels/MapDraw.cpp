@@ -14,10 +14,10 @@
 namespace osgLabels
 {
 
+using osgMultiRender::ForcedOn;
+
 namespace
 {
-
-constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
 
 /// A style whose ink and plate are chosen where it leaves them open: what is below a map label is
 /// not known, so that its plate makes it legible.
@@ -151,7 +151,7 @@ osg::ref_ptr<osg::StateSet> MapPass::makePass(osg::State& state, bool isTest)
     osg::ref_ptr<osg::StateSet> pass =
         new osg::StateSet(*_scene.programs.get(kind, _resources.getDefines(_isPaged, 0)));
     const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
-    { pass->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), Over); };
+    { pass->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), ForcedOn); };
     texture(MapPrograms::LabelsUnit, _quads->getTexture());
     if (_targets)
         texture(MapTargets::NearUnit, _targets->getNear());
@@ -159,7 +159,7 @@ osg::ref_ptr<osg::StateSet> MapPass::makePass(osg::State& state, bool isTest)
         texture(MapTargets::NextUnit, _targets->getNext());
     if (kind.states)
         texture(MapPrograms::StatesUnit, _memory->getStates());
-    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
+    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, ForcedOn); };
     int actions[4] = {};
     for (std::size_t i = 0; i < _actions.size(); ++i)
         actions[i] = int(_actions[i]);
@@ -181,12 +181,13 @@ void MapPass::findStates(osg::RenderInfo& renderInfo)
     const osg::ref_ptr<osg::StateSet> pass = makePass(state, true);
     _memory->bind(state, *pass, MapPrograms::StatesUnit);
     const osg::Vec2 size = _memory->getSize();
-    pass->setAttribute(new osg::Viewport(0, 0, size.x(), size.y()), Over);
-    pass->setAttribute(new osg::Point(1.0f), Over);
-    pass->addUniform(new osg::Uniform("osgLabels_stateSize", size), Over);
-    pass->addUniform(new osg::Uniform("osgLabels_isMoving", int(_memory->isMoving())), Over);
+    pass->setAttribute(new osg::Viewport(0, 0, size.x(), size.y()), ForcedOn);
+    pass->setAttribute(new osg::Point(1.0f), ForcedOn);
+    pass->addUniform(new osg::Uniform("osgLabels_stateSize", size), ForcedOn);
+    pass->addUniform(new osg::Uniform("osgLabels_isMoving", int(_memory->isMoving())), ForcedOn);
     pass->addUniform(
-        new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), MapMemory::Hold)), Over);
+        new osg::Uniform("osgLabels_time", osg::Vec2(_memory->getTime(), MapMemory::Hold)),
+        ForcedOn);
     const osgMultiRender::PassState pushed(state, *pass);
     state.apply();
     _quads->drawPoints(renderInfo);
@@ -201,7 +202,7 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     osg::State& state = *renderInfo.getState();
     const osg::ref_ptr<osg::StateSet> pass = makePass(state, false);
     _resources.updateGlyphs(*pass);
-    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, Over); };
+    const auto add = [&](osg::Uniform* uniform) { pass->addUniform(uniform, ForcedOn); };
     add(new osg::Uniform("osgLabels_viewport",
                          osg::Vec4(float(_viewport[0]), float(_viewport[1]),
                                    2.0f / float(_viewport[2]), 2.0f / float(_viewport[3]))));
@@ -210,7 +211,7 @@ void MapPass::draw(osg::RenderInfo& renderInfo)
     add(new osg::Uniform("osgLabels_fade", _settings.mapFade));
     add(looksOf(_settings.styles));
     pass->setAttribute(new osg::Viewport(_viewport[0], _viewport[1], _viewport[2], _viewport[3]),
-                       Over);
+                       ForcedOn);
     std::vector<std::unique_ptr<osgMultiRender::PassState>> limits;
     for (const osg::ref_ptr<osg::StateSet>& each : _limits)
         limits.push_back(std::make_unique<osgMultiRender::PassState>(state, *each));

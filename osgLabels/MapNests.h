@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgLabels/BufferTexture.h>
+#include <osgLabels/ContextWords.h>
 #include <osgLabels/FeatureTree.h>
 
-#include <map>
 #include <memory>
-#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace osgLabels
@@ -26,17 +25,12 @@ public:
     {
         return int(FeatureTree::First + nesting.steps.size());
     }
-    void releaseGLObjects(osg::State* state);
+    void releaseGLObjects(osg::State* state) { _words.releaseGLObjects(state); }
 
 private:
-    struct Context
-    {
-        osg::ref_ptr<BufferTexture> texture;
-        std::shared_ptr<const FeatureTree::Nesting> nesting;
-        std::vector<std::uint32_t> depths;
-    };
-    std::mutex _mutex;
-    std::map<unsigned int, Context> _contexts;
+    using Source =
+        std::pair<std::shared_ptr<const FeatureTree::Nesting>, std::vector<std::uint32_t>>;
+    ContextWords<Source> _words;
 };
 
 } // namespace osgLabels

@@ -24,6 +24,8 @@
 namespace osgLabels
 {
 
+using osgMultiRender::ForcedOff;
+using osgMultiRender::ForcedOn;
 using osgMultiRender::SurfaceFrame;
 using osgMultiRender::SurfaceItem;
 using osgMultiRender::SurfaceKey;
@@ -31,9 +33,6 @@ using osgMultiRender::SurfaceState;
 
 namespace
 {
-
-constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
 /// Sides of a mesh as the rasterizer sees them.
 enum Side
@@ -92,18 +91,20 @@ bool isHere(const SurfaceState& state, const GLint (&viewport)[4])
 
 void setState(osg::StateSet& over, const GLint (&viewport)[4], const PixelBox& box)
 {
-    over.setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]), Over);
+    over.setAttribute(new osg::Viewport(viewport[0], viewport[1], viewport[2], viewport[3]),
+                      ForcedOn);
     const int left = std::max(viewport[0], int(std::floor(box.left)));
     const int bottom = std::max(viewport[1], int(std::floor(box.bottom)));
     const int right = std::min(viewport[0] + viewport[2], int(std::ceil(box.right)));
     const int top = std::min(viewport[1] + viewport[3], int(std::ceil(box.top)));
     over.setAttributeAndModes(
-        new osg::Scissor(left, bottom, std::max(0, right - left), std::max(0, top - bottom)), Over);
-    over.setAttribute(new osg::ColorMask, Over);
-    over.setAttributeAndModes(new osg::Depth, Over);
+        new osg::Scissor(left, bottom, std::max(0, right - left), std::max(0, top - bottom)),
+        ForcedOn);
+    over.setAttribute(new osg::ColorMask, ForcedOn);
+    over.setAttributeAndModes(new osg::Depth, ForcedOn);
     for (GLenum mode :
          {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
-        over.setMode(mode, Never);
+        over.setMode(mode, ForcedOff);
 }
 
 } // namespace
@@ -315,17 +316,17 @@ osg::ref_ptr<osg::StateSet> MapPass::stateOf(int layer, int next, int side) cons
     setState(*over, _viewport, _coverage->getBox());
     const bool isMany = side == ManyCounterclockwise || side == ManyClockwise;
     if (side == BothSides || isMany)
-        over->setMode(GL_CULL_FACE, Never);
+        over->setMode(GL_CULL_FACE, ForcedOff);
     else
-        over->setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT), Over);
+        over->setAttributeAndModes(new osg::CullFace(osg::CullFace::FRONT), ForcedOn);
     const bool isClockwise = side == Clockwise || side == ManyClockwise;
     over->setAttribute(new osg::FrontFace(isClockwise ? osg::FrontFace::CLOCKWISE
                                                       : osg::FrontFace::COUNTER_CLOCKWISE),
-                       Over);
-    const auto add = [&](osg::Uniform* uniform) { over->addUniform(uniform, Over); };
+                       ForcedOn);
+    const auto add = [&](osg::Uniform* uniform) { over->addUniform(uniform, ForcedOn); };
     add(new osg::Uniform("osgLabels_isByDepth", int(_isByDepth)));
     const auto texture = [&](unsigned int unit, const osg::StateAttribute* attribute)
-    { over->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), Over); };
+    { over->setTextureAttribute(unit, const_cast<osg::StateAttribute*>(attribute), ForcedOn); };
     if (isMany)
     {
         texture(TextsUnit, _records.get());

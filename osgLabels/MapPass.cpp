@@ -176,13 +176,15 @@ void MapPass::placeAll()
 /// there are layers for share the last: what is around them does not hide them.
 void MapPass::findDepths()
 {
-    constexpr std::size_t most = 6;
+    // Layers are counted from 1 in what a label has of its own feature's numbers.
+    constexpr std::size_t most = (1u << (32 - MapQuads::NextShift)) - 2;
     for (const PlacedLabel& placed : _placed)
         if (const FeatureTree::Range& own = placed.label->own; own.first < own.last)
             _depths.push_back(_nesting->depthOf(own.first));
     std::sort(_depths.begin(), _depths.end());
     _depths.erase(std::unique(_depths.begin(), _depths.end()), _depths.end());
-    _depths.resize(std::min(_depths.size(), most));
+    _sharing = _depths.size() - std::min(_depths.size(), most);
+    _depths.resize(_depths.size() - _sharing);
 }
 
 std::uint32_t MapPass::nextOf(const FeatureTree::Range& own) const
@@ -277,6 +279,9 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
         text += ", " + std::to_string(_drawn) + " drawables may stand before them";
     if (_drawnNext)
         text += ", " + std::to_string(_drawnNext) + " of them drawn for a second layer";
+    if (_sharing)
+        text += ", " + std::to_string(_sharing) +
+                " depths of nested features share the last of their layers";
     if (_leftOut)
         text += ", " + std::to_string(_leftOut) + " can't";
     if (_refused)
@@ -287,6 +292,8 @@ void MapPass::fillPlan(osgMultiRender::Plan& plan) const
     plan.counts["map.occluders"] = _drawn;
     plan.counts["map.occluders.second"] = _drawnNext;
     plan.counts["map.occluders.leftOut"] = _leftOut;
+    plan.counts["map.depths"] = double(_depths.size());
+    plan.counts["map.depths.sharing"] = double(_sharing);
     plan.counts["map.actions"] = double(_actions.size());
     plan.counts["map.bytes.targets"] = double(_targets ? _targets->getBytes() : 0);
 }

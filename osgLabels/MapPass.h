@@ -120,6 +120,7 @@ private:
     osg::ref_ptr<MapQuads> _quads;
     std::shared_ptr<const FeatureTree::Nesting> _nesting; ///< Likewise.
     std::vector<std::uint32_t> _depths;     ///< Of labels' features that others lie in.
+    std::size_t _sharing = 0;               ///< Depths beyond those, without a layer of their own.
     osg::ref_ptr<BufferTexture> _nests;     ///< Null where there are none.
     std::shared_ptr<const MapWords> _words; ///< Of what has records, as it was in cull.
     osg::ref_ptr<BufferTexture> _records;

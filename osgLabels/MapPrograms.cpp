@@ -5,6 +5,7 @@
 #include <osgLabels/MapTargets.h>
 #include <osgLabels/Shaders.h>
 
+#include <osgMultiRender/PassState.h>
 #include <osgMultiRender/SurfaceSource.h>
 
 #include <osg/BlendEquation>
@@ -16,11 +17,11 @@
 namespace osgLabels
 {
 
+using osgMultiRender::ForcedOff;
+using osgMultiRender::ForcedOn;
+
 namespace
 {
-
-constexpr auto On = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-constexpr auto Off = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
 osg::ref_ptr<osg::Program> makeProgram(const MapPrograms::Kind& kind, const std::string& defines)
 {
@@ -73,21 +74,21 @@ const osg::StateSet* MapPrograms::get(const Kind& kind, const std::string& defin
         return stateSet.get();
     stateSet = new osg::StateSet;
     stateSet->setThreadSafeRefUnref(true);
-    stateSet->setAttributeAndModes(makeProgram(kind, defines), On);
+    stateSet->setAttributeAndModes(makeProgram(kind, defines), ForcedOn);
     if (kind.isTest)
     {
-        stateSet->setMode(GL_BLEND, Off);
-        stateSet->setMode(GL_STENCIL_TEST, Off);
-        stateSet->setAttribute(new osg::ColorMask, On);
+        stateSet->setMode(GL_BLEND, ForcedOff);
+        stateSet->setMode(GL_STENCIL_TEST, ForcedOff);
+        stateSet->setAttribute(new osg::ColorMask, ForcedOn);
     }
     else // masked as the view is
         stateSet->setAttributeAndModes(
-            new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA), On);
-    stateSet->setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), On);
-    stateSet->setAttribute(new osg::PolygonMode, On);
+            new osg::BlendFunc(osg::BlendFunc::ONE, osg::BlendFunc::ONE_MINUS_SRC_ALPHA), ForcedOn);
+    stateSet->setAttribute(new osg::BlendEquation(osg::BlendEquation::FUNC_ADD), ForcedOn);
+    stateSet->setAttribute(new osg::PolygonMode, ForcedOn);
     for (GLenum mode : {GL_DEPTH_TEST, GL_CULL_FACE, GL_ALPHA_TEST, GL_POLYGON_OFFSET_FILL,
                         GL_COLOR_LOGIC_OP, GL_SAMPLE_ALPHA_TO_COVERAGE_ARB})
-        stateSet->setMode(mode, Off);
+        stateSet->setMode(mode, ForcedOff);
     const std::pair<const char*, int> samplers[] = {{"osgLabels_nearFace", MapTargets::NearUnit},
                                                     {"osgLabels_next", MapTargets::NextUnit},
                                                     {"osgLabels_mapLabels", LabelsUnit},

@@ -82,29 +82,8 @@ std::shared_ptr<const MapWords> MapRecords::take(const osg::Group& group)
 osg::ref_ptr<BufferTexture> MapRecords::upload(osg::State& state,
                                                const std::shared_ptr<const MapWords>& words)
 {
-    std::lock_guard<std::mutex> lock(_mutex);
-    Context& context = _contexts[state.getContextID()];
-    if (!context.texture)
-        context.texture =
-            new BufferTexture(state.getContextID(), 1, BufferTexture::needsPages(state));
-    if (context.words != words && words)
-    {
-        const std::size_t bytes = words->words.size() * sizeof(words->words.front());
-        context.texture->resize(state, bytes);
-        context.texture->write(state, 0, words->words.data(), bytes);
-        context.words = words;
-    }
-    return context.texture;
-}
-
-void MapRecords::releaseGLObjects(osg::State* state)
-{
-    std::lock_guard<std::mutex> lock(_mutex);
-    for (auto context = _contexts.begin(); context != _contexts.end();)
-        if (!state || state->getContextID() == context->first)
-            context = _contexts.erase(context);
-        else
-            ++context;
+    return _uploaded.upload(
+        state, words, [&]() -> const auto& { return words->words; });
 }
 
 } // namespace osgLabels

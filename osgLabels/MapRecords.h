@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgLabels/BufferTexture.h>
+#include <osgLabels/ContextWords.h>
 #include <osgLabels/LabelObjects.h>
 #include <osgLabels/MapFeatures.h>
 
-#include <map>
 #include <memory>
+#include <mutex>
 
 namespace osgLabels
 {
@@ -44,7 +44,7 @@ public:
     /// Uploads what the context, which is current, does not have already.
     osg::ref_ptr<BufferTexture> upload(osg::State& state,
                                        const std::shared_ptr<const MapWords>& words);
-    void releaseGLObjects(osg::State* state);
+    void releaseGLObjects(osg::State* state) { _uploaded.releaseGLObjects(state); }
 
 private:
     std::shared_ptr<const MapWords> take(const osg::Group& group);
@@ -56,12 +56,7 @@ private:
     std::vector<Chunked> _chunked;
     std::shared_ptr<const MapWords> _words; ///< Null: to be taken.
     MapFeatures::Held _held;
-    struct Context
-    {
-        osg::ref_ptr<BufferTexture> texture;
-        std::shared_ptr<const MapWords> words;
-    };
-    std::map<unsigned int, Context> _contexts;
+    ContextWords<std::shared_ptr<const MapWords>> _uploaded;
 };
 
 } // namespace osgLabels

@@ -84,7 +84,7 @@ std::optional<osg::Matrixd> unevenScaleOf(const osg::Matrixd& matrix)
     return scale;
 }
 
-std::uint32_t UnevenScales::numberOf(const osg::Drawable& drawable, const osg::Matrixd& matrix)
+std::uint32_t UnevenScales::hold(const osg::Drawable& drawable, const osg::Matrixd& matrix)
 {
     const osg::Geometry* geometry = drawable.asGeometry();
     if (!geometry || !dynamic_cast<const osg::Vec3Array*>(geometry->getVertexArray()))
@@ -92,15 +92,33 @@ std::uint32_t UnevenScales::numberOf(const osg::Drawable& drawable, const osg::M
     const auto scale = unevenScaleOf(matrix);
     if (!scale)
         return 0;
-    std::array<float, 6> key{};
+    Key key{};
     for (int i = 0, at = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j, ++at) // what differs by rounding is the same
             key[std::size_t(at)] = float(std::round((*scale)(i, j) * 1e6) * 1e-6);
-    const auto [found, isNew] =
-        _numbers.emplace(key, std::make_pair(std::uint32_t(_all.size() + 1), *scale));
-    if (isNew)
-        _all.push_back(&found->second.second);
-    return found->second.first;
+    std::uint32_t& number = _numbers[key];
+    if (!number)
+    {
+        if (_free.empty())
+        {
+            _all.emplace_back();
+            _free.push_back(static_cast<std::uint32_t>(_all.size()));
+        }
+        number = _free.back();
+        _free.pop_back();
+        _all[number - 1] = {std::make_shared<const osg::Matrixd>(*scale), key, 0};
+    }
+    ++_all[number - 1].holders;
+    return number;
+}
+
+void UnevenScales::release(std::uint32_t number)
+{
+    if (!number || --_all[number - 1].holders)
+        return;
+    _numbers.erase(_all[number - 1].key);
+    _all[number - 1] = {};
+    _free.push_back(number);
 }
 
 } // namespace osgLabels

@@ -9,8 +9,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace osgLabels
@@ -23,21 +23,32 @@ OSGLABELS_EXPORT std::optional<osg::Matrixd> unevenScaleOf(const osg::Matrixd& m
 
 /// The uneven scales above the drawables of a scene, each once, so that letters on them are not
 /// stretched: an object's shape is fitted as it is seen, and its label's coordinates are those.
+/// One that nothing holds any more is forgotten, and its number is given again.
 class UnevenScales
 {
 public:
-    /// The number of that of a path's matrix; 0 for none, and where a drawable's shape can't be
-    /// scaled.
-    std::uint32_t numberOf(const osg::Drawable& drawable, const osg::Matrixd& matrix);
-    /// Stays valid; null for 0.
-    const osg::Matrixd* get(std::uint32_t number) const
+    /// Holds that of a path's matrix and returns its number; 0, which holds nothing, for none, and
+    /// where a drawable's shape can't be scaled.
+    std::uint32_t hold(const osg::Drawable& drawable, const osg::Matrixd& matrix);
+    /// Once for each hold(); nothing for 0.
+    void release(std::uint32_t number);
+    /// Null for 0 and for what nothing holds.
+    std::shared_ptr<const osg::Matrixd> get(std::uint32_t number) const
     {
-        return number ? _all[number - 1] : nullptr;
+        return number && number <= _all.size() ? _all[number - 1].matrix : nullptr;
     }
 
 private:
-    std::map<std::array<float, 6>, std::pair<std::uint32_t, osg::Matrixd>> _numbers;
-    std::vector<const osg::Matrixd*> _all;
+    using Key = std::array<float, 6>;
+    struct Scale
+    {
+        std::shared_ptr<const osg::Matrixd> matrix; ///< Null for a number that is free.
+        Key key{};
+        std::uint32_t holders = 0;
+    };
+    std::map<Key, std::uint32_t> _numbers;
+    std::vector<Scale> _all;
+    std::vector<std::uint32_t> _free;
 };
 
 } // namespace osgLabels

@@ -14,6 +14,9 @@ class OSGMULTIRENDER_EXPORT ContentTexture : public osg::Texture
 {
 public:
     ContentTexture() = default;
+
+    /// Without mip levels; `filter` both ways, clamped at the edges.
+    ContentTexture(GLenum internalFormat, FilterMode filter);
     ContentTexture(const ContentTexture& other, const osg::CopyOp& copyop)
         : osg::Texture(other, copyop)
     {
@@ -33,6 +36,16 @@ protected:
     ~ContentTexture() override = default;
     void computeInternalFormat() const override {}
     void allocateMipmap(osg::State&) const override {}
+
+    /// Binds the texture of the state's context, or 0 for one without a size, which osg::State
+    /// unbinds with. False if the context has none yet.
+    bool bindExisting(osg::State& state) const;
 };
+
+/// Binds a texture to unit 0 for calls that change it; the state knows of it.
+OSGMULTIRENDER_EXPORT void bindToChange(osg::State& state, const osg::Texture& texture);
+
+/// bindToChange(), for uploads of tightly packed rows from memory.
+OSGMULTIRENDER_EXPORT void bindToUpload(osg::State& state, const osg::Texture& texture);
 
 } // namespace osgMultiRender

@@ -290,6 +290,7 @@ private:
         s.depthTest = flag(fragment, "DepthTest", s.depthTest);
         s.depthFunction = enumeration(fragment, "DepthFunc", s.depthFunction);
         s.clearColor = color(fragment, "ClearColor", s.clearColor);
+        s.hasMaterials = states.child("FrontMaterial") || states.child("BackMaterial");
         s.modelAmbient = color(states.child("ModelAmbient"), "Ambient", s.modelAmbient);
         s.front = material(states.child("FrontMaterial"));
         s.back = material(states.child("BackMaterial"));

@@ -29,6 +29,8 @@ constexpr double InnerWidth = 1.25, OuterWidth = 8.0;
 /// by some 1e-7 of the grid's width.
 constexpr double Slack = 1e-6;
 
+constexpr std::uint32_t FoursOfList = KeyCells::MaxCandidates / 4;
+
 constexpr int GridLevel = 4;
 static_assert(1 << GridLevel == KeyCells::Grid, "grids are cells of that level");
 
@@ -215,6 +217,7 @@ public:
             if (!inner || !isWithin(cell, *inner))
                 settle(cell);
         }
+        _cells.resize((_cells.size() + 3) / 4 * 4);
         for (const auto& [index, list] : _lists)
             close(index, list);
     }
@@ -262,9 +265,11 @@ private:
 
     void close(std::size_t index, const std::vector<std::uint32_t>& list)
     {
-        _cells[index] = -1 - static_cast<std::int32_t>(KeyCells::MaxCandidates * _cells.size() +
-                                                       list.size() - 1);
+        const std::size_t fours = (list.size() + 3) / 4;
+        _cells[index] =
+            -1 - static_cast<std::int32_t>(FoursOfList * (_cells.size() / 4) + fours - 1);
         _cells.insert(_cells.end(), list.begin(), list.end());
+        _cells.resize(_cells.size() + 4 * fours - list.size(), _cells.back());
     }
 
     const std::vector<KeySegment>& _segments;
@@ -325,9 +330,9 @@ std::optional<double> KeyCells::distance(const glm::dvec3& point) const
             return std::nullopt;
         const std::uint32_t list = static_cast<std::uint32_t>(-1 - cell);
         double nearest = std::numeric_limits<double>::infinity();
-        for (std::uint32_t i = 0; i <= list % MaxCandidates; ++i)
-            nearest = std::min(
-                nearest, _segments[std::size_t(_cells[list / MaxCandidates + i])].distance(point));
+        const std::size_t first = 4 * std::size_t(list / FoursOfList);
+        for (std::size_t i = first; i < first + 4 * (list % FoursOfList + 1); ++i)
+            nearest = std::min(nearest, _segments[std::size_t(_cells[i])].distance(point));
         return nearest;
     }
     return std::nullopt;

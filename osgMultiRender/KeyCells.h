@@ -39,8 +39,9 @@ public:
 
     const std::array<Root, 2>& getRoots() const { return _roots; } ///< The inner one first.
     /// Cells, x fastest, and lists. A cell is 0 where nothing is told, the index of the first of
-    /// its eight parts, or -1 - (64 * the index of its list + the number of its candidates - 1).
-    /// Candidates are indices of segments.
+    /// its eight parts, or -1 - (16 * its list + the fours of the list - 1). Candidates are indices
+    /// of segments, in fours: list n begins at 4 n, and the last one is there until its four is
+    /// full.
     const std::vector<std::int32_t>& getCells() const { return _cells; }
 
 private:

@@ -20,6 +20,12 @@ constexpr const char* VertexBuiltins[] = {
 constexpr const char* FragmentBuiltins[] = {"gl_FragColor",   "gl_FragData",       "gl_FragDepth",
                                             "gl_Color",       "gl_SecondaryColor", "gl_TexCoord",
                                             "gl_FogFragCoord"};
+/// Those that are its own where its description holds materials, lights.
+constexpr const char* MaterialBuiltins[] = {"gl_FrontMaterial", "gl_BackMaterial", "gl_LightModel",
+                                            "gl_FrontLightModelProduct",
+                                            "gl_BackLightModelProduct"};
+constexpr const char* LightBuiltins[] = {"gl_LightSource", "gl_FrontLightProduct",
+                                         "gl_BackLightProduct"};
 
 /// "gl_FragColor" as "fragColor".
 std::string plainName(const std::string& builtin)
@@ -113,13 +119,21 @@ std::string MergeNames::make(const std::string& name, std::size_t id)
     return claim((stem.empty() ? "x" : stem) + "_" + std::to_string(id));
 }
 
-void nameMergeProgram(MergeProgram& program, MergeNames& names, int version)
+void nameMergeProgram(MergeProgram& program, MergeNames& names, int version, bool ownLighting)
 {
     std::map<std::string, std::string> both, reserved;
     const std::string mainName = program.name + "_" + std::to_string(program.id) + "_main";
     for (MergeStage* stage : {&program.vertex, &program.fragment})
     {
         nameReserved(*stage, reserved, names, program.id, version);
+        if (ownLighting && program.rendering->state.hasMaterials)
+        {
+            nameBuiltins(*stage, MaterialBuiltins, names, program.id, both);
+        }
+        if (ownLighting && !program.rendering->state.lights.empty())
+        {
+            nameBuiltins(*stage, LightBuiltins, names, program.id, both);
+        }
         for (auto& [name, entity] : stage->entities)
         {
             if (setByOsg(name, entity.kind) || entity.kind == Kind::Attribute)

@@ -132,12 +132,30 @@ private:
 MergeProgram readMergeProgram(const Rendering& rendering, std::size_t id,
                               std::vector<MergedFile>& files);
 
+/// Finds what the code of a shader object of `stage` uses: built-ins, globals, derivatives,
+/// discard.
+void findFeatures(MergeProgram& program, MergeStage& stage, const MergeShader& shader,
+                  const std::vector<MergedFile>& files);
+
+/// Finds whether `discard` stands in a function that another one calls.
+void findDiscards(MergeProgram& program);
+
+/// Marks globals whose initializers read what main() sets up first: varyings, and what depends on
+/// them.
+void findTaints(MergeProgram& program, MergeStage& stage, const std::vector<MergedFile>& files);
+
 /// The condition under which the rendering's alpha test lets a fragment pass, of an expression for
 /// its alpha; empty where all do.
 std::string alphaTestOf(const RenderingState& state, const std::string& alpha);
 
-/// Chooses merged names for all that is the rendering's own.
-void nameMergeProgram(MergeProgram& program, MergeNames& names, int version);
+/// Chooses merged names for all that is the rendering's own; with `ownLighting` that is the lights
+/// and materials of its description, too.
+void nameMergeProgram(MergeProgram& program, MergeNames& names, int version, bool ownLighting);
+
+/// Declares what stands for a built-in of lights or materials by the values of a description; empty
+/// for other built-ins.
+std::string lightingConstant(const RenderingState& state, const std::string& builtin,
+                             const std::string& name);
 
 /// Finds the varyings of a program, by both stages' declarations, when it is named.
 void connectStages(MergeProgram& program, const std::vector<MergedFile>& files, bool clampColors);

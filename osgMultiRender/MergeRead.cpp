@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reading a rendering for the merger: entities, outputs, features.
+// Reading a rendering for the merger: its shaders and what they declare.
 #include <osgMultiRender/MergeProgram.h>
 
 #include <osgMultiRender/GlslExpand.h>
-#include <osgMultiRender/GlslVocabulary.h>
 
 #include <algorithm>
 #include <cctype>
@@ -55,22 +54,6 @@ std::string identifierOf(const std::string& name)
                                                                        : result;
 }
 
-/// Texture lookups that choose the level by derivatives, and what takes derivatives itself.
-bool takesDerivatives(std::string_view word)
-{
-    const auto starts = [&](std::string_view prefix)
-    { return word.substr(0, prefix.size()) == prefix; };
-    const auto holds = [&](std::string_view part)
-    { return word.find(part) != std::string_view::npos; };
-    if (starts("dFd") || starts("fwidth") || starts("textureQueryL"))
-    {
-        return true;
-    }
-    const bool lookup = starts("texture") || starts("shadow1D") || starts("shadow2D");
-    return lookup && builtinFunctionSince(word) && !holds("Lod") && !holds("Grad") &&
-           !holds("Size") && !holds("Gather") && !holds("Samples") && !holds("Levels");
-}
-
 class Reader
 {
 public:
@@ -114,9 +97,9 @@ public:
                                    stage->texCoords.end());
             _texCoords = 32;
             checkMain(*stage);
-            findTaints(*stage);
+            findTaints(_program, *stage, _files);
         }
-        findDiscards();
+        findDiscards(_program);
     }
 
 private:
@@ -145,76 +128,6 @@ private:
     }
 
     bool isFragment(const MergeStage& stage) const { return &stage == &_program.fragment; }
-
-    /// Globals whose initializers read what main() sets up first: varyings, and what depends on
-    /// them.
-    void findTaints(MergeStage& stage)
-    {
-        for (const MergeShader& shader : stage.shaders)
-        {
-            const GlslSource& source = shader.source;
-            for (const GlslDeclaration& one : source.declarations)
-            {
-                const auto found = stage.entities.find(one.name);
-                if (one.kind != GlslDeclaration::Kind::Global || one.initializer.empty() ||
-                    found == stage.entities.end() || !readsMain(stage, source, one.initializer))
-                {
-                    continue;
-                }
-                found->second.tainted = true;
-                const bool main = std::any_of(source.functions.begin(), source.functions.end(),
-                                              [](const GlslFunction& f)
-                                              { return f.name == "main" && !f.body.empty(); });
-                if (!main || source.word(one.initializer.first) == "{")
-                {
-                    _program.fail(_files, shader, one.nameToken,
-                                  "the initializer of '" + one.name + "' can't be merged");
-                }
-            }
-        }
-    }
-
-    bool readsMain(const MergeStage& stage, const GlslSource& source, const GlslRange& range) const
-    {
-        static const std::set<std::string_view> written = {"gl_Color", "gl_SecondaryColor",
-                                                           "gl_TexCoord", "gl_FogFragCoord"};
-        for (std::size_t i = range.first; i < range.last; ++i)
-        {
-            const GlslUse::Kind use = source.uses[i].kind;
-            const auto found = stage.entities.find(std::string(source.word(i)));
-            const bool entity =
-                (use == GlslUse::Kind::Global || use == GlslUse::Kind::BlockMember) &&
-                found != stage.entities.end();
-            if (use == GlslUse::Kind::Function ||
-                (use == GlslUse::Kind::Builtin && isFragment(stage) &&
-                 written.count(source.word(i))) ||
-                (entity &&
-                 (found->second.tainted || found->second.kind == MergeEntity::Kind::Varying)))
-            {
-                return true;
-            }
-        }
-        return false;
-    }
-
-    /// Whether `discard` stands in a function that another one calls.
-    void findDiscards()
-    {
-        for (const MergeShader& shader : _program.fragment.shaders)
-        {
-            const GlslSource& source = shader.source;
-            for (const GlslFunction& function : source.functions)
-            {
-                for (std::size_t i = function.body.first;
-                     function.name != "main" && i < function.body.last; ++i)
-                {
-                    _program.discardsInLoops = _program.discardsInLoops ||
-                                               (source.tokens[i].kind == GlslToken::Kind::Keyword &&
-                                                source.word(i) == "discard");
-                }
-            }
-        }
-    }
 
     void checkMain(const MergeStage& stage)
     {
@@ -276,7 +189,7 @@ private:
             block(stage, index, i);
         }
         layouts(source);
-        features(stage, index);
+        findFeatures(_program, stage, stage.shaders[index], _files);
     }
 
     /// "layout(early_fragment_tests) in;" counts for the whole program, so it can't be one's own.
@@ -403,90 +316,6 @@ private:
             return;
         }
         place(stage, one.name, MergeEntity::Kind::Block, {shader, index}, one.nameToken);
-    }
-
-    /// What the code of a shader object uses.
-    void features(MergeStage& stage, std::size_t index)
-    {
-        const GlslSource& source = stage.shaders[index].source;
-        for (std::size_t i = 0; i < source.tokens.size(); ++i)
-        {
-            const std::string_view word = source.word(i);
-            if (source.tokens[i].kind == GlslToken::Kind::Keyword)
-            {
-                _program.discards = _program.discards || (isFragment(stage) && word == "discard");
-                continue;
-            }
-            const GlslUse& meant = source.uses[i];
-            const bool variable =
-                meant.kind == GlslUse::Kind::Global || meant.kind == GlslUse::Kind::BlockMember;
-            if (variable && source.declarations[meant.target].nameToken != i)
-            {
-                stage.usedGlobals.emplace(word);
-            }
-            // Redeclared ones are globals: "varying vec4 gl_TexCoord[2];".
-            const GlslUse::Kind use = source.uses[i].kind;
-            const bool redeclared = use == GlslUse::Kind::Global && word.substr(0, 3) == "gl_" &&
-                                    source.declarations[source.uses[i].target].nameToken != i;
-            if (use != GlslUse::Kind::Builtin && !redeclared)
-            {
-                continue;
-            }
-            const bool derives = isFragment(stage) && takesDerivatives(word);
-            _program.derivatives = _program.derivatives || derives;
-            if (word.substr(0, 3) == "gl_" || word == "ftransform")
-            {
-                stage.usedBuiltins.emplace(word);
-                indexed(stage, source, i);
-            }
-            if (word.substr(0, 13) == "interpolateAt")
-            {
-                _program.fail(_files, stage.shaders[index], i,
-                              std::string(word) + " can't be merged: varyings are packed");
-            }
-            if (word.substr(0, 20) == "gl_SecondaryFragData" ||
-                word.substr(0, 21) == "gl_SecondaryFragColor")
-            {
-                _program.fail(_files, stage.shaders[index], i,
-                              "dual-source blending can't be merged");
-            }
-        }
-    }
-
-    /// The size that "gl_TexCoord[2]" asks for.
-    void indexed(MergeStage& stage, const GlslSource& source, std::size_t token)
-    {
-        const std::string_view word = source.word(token);
-        if (word != "gl_TexCoord" && word != "gl_FragData" && word != "gl_ClipDistance")
-        {
-            return;
-        }
-        std::size_t open = token + 1;
-        while (open < source.tokens.size() && source.tokens[open].blank())
-        {
-            ++open;
-        }
-        std::size_t close = open;
-        while (close < source.tokens.size() && source.word(close) != "]" && close < open + 16)
-        {
-            ++close;
-        }
-        bool known = false;
-        const long long index = open < close && source.word(open) == "["
-                                    ? constantOf(source, open + 1, close, known)
-                                    : 0;
-        // An index that varies, or the whole array: all that contexts have.
-        const int last = known && index >= 0 && index < 32 ? static_cast<int>(index) : 7;
-        if (word == "gl_TexCoord")
-        {
-            for (int i = known ? last : 0; i <= last; ++i)
-            {
-                stage.texCoords.insert(i);
-            }
-            return;
-        }
-        int& size = word == "gl_FragData" ? stage.fragData : stage.clipDistances;
-        size = std::max(size, last + 1);
     }
 
     MergeProgram& _program;

@@ -417,6 +417,12 @@ std::string builtinGlobals(const MergeProgram& program, bool fragment)
     std::string text;
     for (const auto& [builtin, name] : stage.builtins)
     {
+        const std::string constant = lightingConstant(program.rendering->state, builtin, name);
+        if (!constant.empty())
+        {
+            text += constant;
+            continue;
+        }
         const bool scalar = builtin == "gl_FragDepth" || builtin == "gl_PointSize" ||
                             builtin == "gl_FogFragCoord" || builtin == "gl_ClipDistance";
         const int coordinates = stage.texCoords.empty() ? 1 : *stage.texCoords.rbegin() + 1;

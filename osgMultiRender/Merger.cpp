@@ -105,7 +105,7 @@ private:
         _names.take(parseGlsl(_options.weights));
         for (MergeProgram& program : _all)
         {
-            nameMergeProgram(program, _names, _merged.version.number);
+            nameMergeProgram(program, _names, _merged.version.number, _options.ownLighting);
             if (!program.failed)
             {
                 connectStages(program, _merged.files, _options.clampVertexColors);

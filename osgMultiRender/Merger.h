@@ -59,8 +59,11 @@ struct MergeOptions
     MergeOutside outside = MergeOutside::Background;
     bool normalize = false;        ///< Divide by the sum of the weights where it is above 1.
     bool clampVertexColors = true; ///< gl_FrontColor as under GL's own GL_CLAMP_VERTEX_COLOR.
-    bool skipZeroWeights = true;   ///< Branch around renderings of weight 0 where that is defined.
-    bool share = true;             ///< Equal functions, constants, structs and varyings once.
+    /// gl_LightSource, gl_LightModel, materials and their products are those of RenderingState, for
+    /// renderings whose description holds them; else the context's, as for all others.
+    bool ownLighting = false;
+    bool skipZeroWeights = true; ///< Branch around renderings of weight 0 where that is defined.
+    bool share = true;           ///< Equal functions, constants, structs and varyings once.
     MergeLimits limits;
     std::vector<unsigned int> occupiedUnits; ///< Texture units that renderings' own can't have.
 };

@@ -75,6 +75,10 @@ const std::vector<MixOption>& mixOptions()
         choice<MixInput>("input", {{"surface", MixInput::Surface}, {"frame", MixInput::Frame}},
                          &Scene::getInput, &Scene::setInput,
                          "What renderings are shown on: surfaces; the frame, in a second pass"),
+        choice<bool>("lighting", {{"scene", false}, {"own", true}}, &Scene::getOwnLighting,
+                     &Scene::setOwnLighting,
+                     "Whose lights and materials imported projects read: the scene's; those that "
+                     "they hold"),
         {"uniforms", "<rendering>.<uniform>=<values>;…", "Values of uniforms, as phong.gloss=60",
          parseUniforms, formatUniforms},
         flag("pruning", &Scene::getPruning, &Scene::setPruning,

@@ -113,6 +113,7 @@ MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
         }
     set.isWhole = set.isWhole && set.members.size() == 1;
     set.isTransparent = _draw.getSnapshot().isTransparent && !set.isWhole;
+    set.ownLighting = _draw.getSnapshot().ownLighting;
     return set;
 }
 

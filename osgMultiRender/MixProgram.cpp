@@ -136,6 +136,7 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
         entries.push_back({isThere ? slot->rendering.get() : nullptr, share});
     }
     options.limits = limits;
+    options.ownLighting = set.ownLighting;
     options.weights = weightsOf(set, snapshot.isOfFrame);
     if (!set.isWhole)
     {

@@ -16,7 +16,7 @@ namespace osgMultiRender
 {
 
 /// Which renderings a program shows: slots in order. `isWhole`: the only one, everywhere at 1.
-/// `isTransparent`: fragments of alpha 0 are left out.
+/// `isTransparent`: fragments of alpha 0 are left out. `ownLighting`: as MergeOptions has it.
 struct MixSet
 {
     struct Member
@@ -33,16 +33,17 @@ struct MixSet
     std::vector<Member> members;
     bool isWhole = false;
     bool isTransparent = false;
+    bool ownLighting = false;
 
     bool operator<(const MixSet& other) const
     {
-        return std::tie(isWhole, isTransparent, members) <
-               std::tie(other.isWhole, other.isTransparent, other.members);
+        return std::tie(isWhole, isTransparent, ownLighting, members) <
+               std::tie(other.isWhole, other.isTransparent, other.ownLighting, other.members);
     }
     bool operator==(const MixSet& other) const
     {
         return isWhole == other.isWhole && isTransparent == other.isTransparent &&
-               members == other.members;
+               ownLighting == other.ownLighting && members == other.members;
     }
     bool has(std::uint16_t slot) const;
 };

@@ -203,7 +203,11 @@ void MixPrograms::tryNew(const MixSnapshot& snapshot, osg::State& state)
             fail(slot, errorsOf(*slot.rendering));
             continue;
         }
-        const Merged alone = mergeSet({{{std::uint16_t(i), slot.id}}, true}, snapshot, *_limits);
+        MixSet own;
+        own.members.push_back({std::uint16_t(i), slot.id});
+        own.isWhole = true;
+        own.ownLighting = snapshot.ownLighting;
+        const Merged alone = mergeSet(own, snapshot, *_limits);
         const std::string cause = alone.ok ? tryProgram(alone, state) : errorsOf(alone);
         if (!cause.empty())
             fail(slot, cause);
@@ -222,6 +226,7 @@ MixSet MixPrograms::allOf(const MixSnapshot& snapshot) const
 {
     MixSet set;
     set.isTransparent = snapshot.isTransparent;
+    set.ownLighting = snapshot.ownLighting;
     for (std::size_t i = 0; i < snapshot.slots.size(); ++i)
         if (snapshot.slots[i].rendering && !_failed.count(snapshot.slots[i].id))
             set.members.push_back({std::uint16_t(i), snapshot.slots[i].id});

@@ -37,6 +37,7 @@ struct MixSnapshot
     std::shared_ptr<const KeyPoints> points = std::make_shared<KeyPoints>();
     MixRules rules;
     bool isOfFrame = false;     ///< Renderings read the frame, in a second pass.
+    bool ownLighting = false;   ///< Lights and materials of imports are their own.
     bool isTransparent = false; ///< What is missing shows what lies behind.
     bool prunes = true;
     unsigned int settleFrames = 10;

@@ -232,6 +232,16 @@ void MixedScene::setTransparent(bool transparent)
     change([&](MixSnapshot& snapshot) { snapshot.isTransparent = transparent; });
 }
 
+void MixedScene::setOwnLighting(bool own)
+{
+    change([&](MixSnapshot& snapshot) { snapshot.ownLighting = own; });
+}
+
+bool MixedScene::getOwnLighting() const
+{
+    return getSnapshot()->ownLighting;
+}
+
 bool MixedScene::isTransparent() const
 {
     return getSnapshot()->isTransparent;

@@ -92,6 +92,11 @@ public:
     /// of the rules: surfaces are blended in the order in which they are drawn.
     void setTransparent(bool transparent);
     bool isTransparent() const;
+    /// Whether imports whose description holds lights and materials, as projects of ShaderDesigner
+    /// do, read these instead of the scene's; lights are then fixed to the eye. Off by default, so
+    /// that one scene is lit by one light.
+    void setOwnLighting(bool own);
+    bool getOwnLighting() const;
 
     /// With Frame surfaces keep their own look, or that of MixedScenes below. When the view has
     /// been drawn, a second pass replaces each pixel of the viewport by the mix of what renderings

@@ -8,6 +8,10 @@
 namespace osgMultiRender
 {
 
+/// How a pass sets and unsets what no leaf below may change.
+constexpr auto ForcedOn = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
+constexpr auto ForcedOff = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
+
 /// A StateSet that is pushed as long as this lives, for what is made for one pass and goes with it.
 ///
 /// osg::State tells attributes apart by their addresses: one that comes to lie where a dead one was

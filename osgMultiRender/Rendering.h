@@ -68,12 +68,14 @@ struct RenderingLight
 };
 
 /// The fixed state that a rendering was made under. A mix takes what is the program's own: two
-/// sides, flat shading, and the alpha test, which takes the rendering's weight away. All else is
-/// the model's: materials, lights and the ambient light, as for a rendering without state; culling,
-/// polygon modes, blending and depth, which are of all that a drawable shows.
+/// sides, flat shading, and the alpha test, which takes the rendering's weight away. Materials,
+/// lights and the ambient light are the scene's, or, with MergeOptions::ownLighting, these. All
+/// else is the model's: culling, polygon modes, blending and depth, which are of all that a
+/// drawable shows.
 struct RenderingState
 {
-    bool given = false; ///< False: the description holds no state.
+    bool given = false;        ///< False: the description holds no state.
+    bool hasMaterials = false; ///< And the ambient light.
     RenderingColor modelAmbient = {0.2f, 0.2f, 0.2f, 1.0f};
     RenderingMaterial front, back;
     std::vector<RenderingLight> lights;

@@ -71,14 +71,9 @@ int bytesOf(GLint internalFormat)
 } // namespace
 
 TargetTexture::TargetTexture(GLenum internalFormat, int width, int height, int layers, int samples)
-    : _width(width), _height(height), _layers(layers), _samples(samples)
+    : ContentTexture(internalFormat, NEAREST), _width(width), _height(height), _layers(layers),
+      _samples(samples)
 {
-    setInternalFormat(static_cast<GLint>(internalFormat));
-    setFilter(MIN_FILTER, NEAREST);
-    setFilter(MAG_FILTER, NEAREST);
-    setWrap(WRAP_S, CLAMP_TO_EDGE);
-    setWrap(WRAP_T, CLAMP_TO_EDGE);
-    setUseHardwareMipMapGeneration(false);
 }
 
 TargetTexture::TargetTexture(const TargetTexture& other, const osg::CopyOp& copyop)
@@ -96,17 +91,9 @@ GLenum TargetTexture::getTextureTarget() const
 
 void TargetTexture::apply(osg::State& state) const
 {
+    if (bindExisting(state))
+        return;
     const unsigned int contextID = state.getContextID();
-    if (TextureObject* object = getTextureObject(contextID))
-    {
-        object->bind();
-        return;
-    }
-    if (!_width) // what osg::State unbinds with
-    {
-        glBindTexture(GL_TEXTURE_2D, 0);
-        return;
-    }
     const auto* gl = state.get<osg::GLExtensions>();
     const GLenum target = getTextureTarget();
     const int depth = std::max(1, _layers);
@@ -137,11 +124,7 @@ void TargetTexture::attach(osg::State& state, GLenum attachment, int layer) cons
 {
     const auto* gl = state.get<osg::GLExtensions>();
     if (!getTextureObject(state.getContextID()))
-    {
-        state.setActiveTextureUnit(0);
-        apply(state);
-        state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
-    }
+        bindToChange(state, *this);
     const GLuint id = getTextureObject(state.getContextID())->id();
     if (_layers)
         gl->glFramebufferTextureLayer(GL_DRAW_FRAMEBUFFER_EXT, attachment, id, 0, layer);

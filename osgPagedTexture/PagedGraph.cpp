@@ -3,11 +3,10 @@
 
 #include <osgPagedTexture/Pager.h>
 
+#include <osgMultiRender/Overlay.h>
+
 #include <osg/Geode>
 #include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PolygonMode>
-#include <osg/Projection>
 #include <osg/Viewport>
 #include <osgText/Text>
 #include <osgUtil/CullVisitor>
@@ -24,20 +23,6 @@ namespace
 constexpr std::size_t GraphsKept = 16; ///< Of several views and frames.
 constexpr std::size_t Bars = 256;      ///< Frames.
 constexpr float Height = 60.0f;        ///< Pixels of twice the budget.
-
-osg::ref_ptr<osg::StateSet> makeState()
-{
-    constexpr unsigned int off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
-    constexpr unsigned int on = osg::StateAttribute::ON | osg::StateAttribute::PROTECTED;
-    osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
-    for (const GLenum mode : {GL_LIGHTING, GL_DEPTH_TEST, GL_CULL_FACE, GL_FOG, GL_ALPHA_TEST})
-        state->setMode(mode, off);
-    state->setMode(GL_BLEND, on);
-    state->setAttribute(new osg::PolygonMode, on);
-    state->setRenderBinDetails(1000000, "TraversalOrderBin",
-                               osg::StateSet::OVERRIDE_PROTECTED_RENDERBIN_DETAILS);
-    return state;
-}
 
 void addQuad(osg::Vec3Array& vertices, osg::Vec4Array& colors, float x, float y, float width,
              float height, const osg::Vec4& color)
@@ -100,15 +85,7 @@ osg::ref_ptr<osg::Node> makeGraph(double width, double height, const Pager& page
     geode->addDrawable(
         makeBars(pager.getUploadTimes().getValues(), pager.getSettings().uploadMilliseconds));
     geode->addDrawable(text);
-    osg::ref_ptr<osg::Projection> projection =
-        new osg::Projection(osg::Matrixd::ortho2D(0.0, width, 0.0, height));
-    osg::ref_ptr<osg::MatrixTransform> pixels = new osg::MatrixTransform;
-    pixels->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    pixels->addChild(geode);
-    projection->addChild(pixels);
-    projection->setStateSet(makeState());
-    projection->setCullingActive(false);
-    return projection;
+    return osgMultiRender::makeOverlay(width, height, *geode);
 }
 
 } // namespace

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/PagedOptions.h>
 
-#include <osgPagedTexture/OptionText.h>
+#include <osgMultiRender/OptionText.h>
 
 namespace osgPagedTexture
 {
+
+using namespace osgMultiRender::optionText;
 
 namespace
 {

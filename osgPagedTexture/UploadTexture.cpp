@@ -11,14 +11,9 @@ namespace osgPagedTexture
 {
 
 UploadTexture::UploadTexture(const Format& format, int width, int height)
-    : _format(format), _width(width), _height(height)
+    : ContentTexture(format.internal, format.isLinear ? LINEAR : NEAREST), _format(format),
+      _width(width), _height(height)
 {
-    setInternalFormat(GLint(format.internal));
-    setFilter(MIN_FILTER, format.isLinear ? LINEAR : NEAREST);
-    setFilter(MAG_FILTER, format.isLinear ? LINEAR : NEAREST);
-    setWrap(WRAP_S, CLAMP_TO_EDGE);
-    setWrap(WRAP_T, CLAMP_TO_EDGE);
-    setUseHardwareMipMapGeneration(false);
 }
 
 UploadTexture::UploadTexture(const UploadTexture& other, const osg::CopyOp& copyop)
@@ -35,17 +30,9 @@ UploadTexture::Format UploadTexture::formatOf(BlockFormat format)
 
 void UploadTexture::apply(osg::State& state) const
 {
+    if (bindExisting(state))
+        return;
     const unsigned int contextID = state.getContextID();
-    if (TextureObject* object = getTextureObject(contextID))
-    {
-        object->bind();
-        return;
-    }
-    if (!_width) // what osg::State unbinds with
-    {
-        glBindTexture(GL_TEXTURE_2D, 0);
-        return;
-    }
     generateAndAssignTextureObject(contextID, GL_TEXTURE_2D, 1, GLenum(_internalFormat), _width,
                                    _height, 1, 0)
         ->bind();
@@ -59,12 +46,7 @@ void UploadTexture::apply(osg::State& state) const
 void UploadTexture::upload(osg::State& state, int x, int y, int width, int height,
                            const void* texels, std::size_t bytes) const
 {
-    state.setActiveTextureUnit(0);
-    apply(state);
-    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
-    state.unbindPixelBufferObject();
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    osgMultiRender::bindToUpload(state, *this);
     if (_format.isCompressed)
         state.get<osg::GLExtensions>()->glCompressedTexSubImage2D(
             GL_TEXTURE_2D, 0, x, y, width, height, _format.internal, GLsizei(bytes), texels);

@@ -15,6 +15,8 @@
 namespace osgPagedTexture
 {
 
+using osgMultiRender::ForcedOff;
+using osgMultiRender::ForcedOn;
 using osgMultiRender::SurfaceFrame;
 using osgMultiRender::SurfaceItem;
 using osgMultiRender::SurfaceKey;
@@ -22,9 +24,6 @@ using osgMultiRender::SurfaceState;
 
 namespace
 {
-
-constexpr auto Over = osg::StateAttribute::ON | osg::StateAttribute::OVERRIDE;
-constexpr auto Never = osg::StateAttribute::OFF | osg::StateAttribute::OVERRIDE;
 
 /// Of VirtualSettings::wait.
 constexpr double longestWait = 120.0;
@@ -101,22 +100,22 @@ void VirtualPass::drawFeedback(osg::RenderInfo& renderInfo, SurfaceFrame& frame,
     const int width = std::max(1, int(viewport[2] + GLint(reduction) - 1) / int(reduction));
     const int height = std::max(1, int(viewport[3] + GLint(reduction) - 1) / int(reduction));
     const osg::ref_ptr<osg::StateSet> over = new osg::StateSet;
-    over->setAttribute(new osg::Viewport(0, 0, width, height), Over);
-    over->setAttribute(new osg::ColorMask, Over);
-    over->setAttributeAndModes(new osg::Depth, Over);
+    over->setAttribute(new osg::Viewport(0, 0, width, height), ForcedOn);
+    over->setAttribute(new osg::ColorMask, ForcedOn);
+    over->setAttributeAndModes(new osg::Depth, ForcedOn);
     for (const GLenum mode : {GL_BLEND, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP,
                               GL_SAMPLE_ALPHA_TO_COVERAGE_ARB, GL_SCISSOR_TEST, GL_ALPHA_TEST})
-        over->setMode(mode, Never);
+        over->setMode(mode, ForcedOff);
     const bool jitters = reduction > 1;
     const auto offset = [&](unsigned int base, int side)
     { return jitters ? float((2.0 * halton(1 + number % 64, base) - 1.0) / side) : 0.0f; };
     over->addUniform(
         new osg::Uniform("osgPagedTexture_jitter", osg::Vec2(offset(2, width), offset(3, height))),
-        Over);
+        ForcedOn);
     over->addUniform(new osg::Uniform("osgPagedTexture_sharper",
                                       osg::Vec2(float(width) / float(std::max(1, viewport[2])),
                                                 float(number % 64))),
-                     Over);
+                     ForcedOn);
     {
         const osgMultiRender::PassState pushed(state, *over);
         state.apply();

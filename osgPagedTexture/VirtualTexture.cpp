@@ -6,6 +6,8 @@
 #include <osgPagedTexture/TileExtract.h>
 #include <osgPagedTexture/VirtualPages.h>
 
+#include <osgMultiRender/ContentTexture.h>
+
 #include <osg/Image>
 #include <osg/State>
 #include <osgDB/FileUtils>
@@ -167,11 +169,7 @@ void VirtualTexture::showPicture(osg::State& state, const Pixels& picture) const
     const osg::Image* const image = getImage();
     if (!image || image->s() != picture.width || image->t() != picture.height)
         return;
-    state.setActiveTextureUnit(0);
-    apply(state);
-    state.haveAppliedTextureAttribute(0, osg::StateAttribute::TEXTURE);
-    state.unbindPixelBufferObject();
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    osgMultiRender::bindToUpload(state, *this);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     const GLenum layout = picture.channels == 4 ? GL_RGBA : GL_RGB;
     GLint number = 0;

@@ -3,11 +3,10 @@
 
 #include <osgShadowVolume/FalseColors.h>
 
+#include <osgMultiRender/Overlay.h>
+
 #include <osg/Geode>
 #include <osg/Geometry>
-#include <osg/MatrixTransform>
-#include <osg/PolygonMode>
-#include <osg/Projection>
 #include <osg/Viewport>
 #include <osgText/Text>
 #include <osgUtil/CullVisitor>
@@ -82,21 +81,6 @@ void addScale(osg::Geode& geode, const osg::BoundingBox& bar, float size, double
     geode.addDrawable(lines);
 }
 
-/// State that the model above must not change.
-osg::ref_ptr<osg::StateSet> makeState()
-{
-    constexpr unsigned int off = osg::StateAttribute::OFF | osg::StateAttribute::PROTECTED;
-    constexpr unsigned int on = osg::StateAttribute::ON | osg::StateAttribute::PROTECTED;
-    osg::ref_ptr<osg::StateSet> state = new osg::StateSet;
-    for (const GLenum mode : {GL_LIGHTING, GL_DEPTH_TEST, GL_CULL_FACE, GL_FOG, GL_ALPHA_TEST})
-        state->setMode(mode, off);
-    state->setMode(GL_BLEND, on);
-    state->setAttribute(new osg::PolygonMode, on);
-    state->setRenderBinDetails(1000000, "TraversalOrderBin",
-                               osg::StateSet::OVERRIDE_PROTECTED_RENDERBIN_DETAILS);
-    return state;
-}
-
 osg::ref_ptr<osg::Node> makeLegend(int width, int height, double maximum)
 {
     // Readable in a picture of 320x240, not a poster in one of 1920x1080.
@@ -126,16 +110,10 @@ osg::ref_ptr<osg::Node> makeLegend(int width, int height, double maximum)
     osg::ref_ptr<osg::Geode> panel = new osg::Geode;
     panel->addDrawable(makeBar(around, *shade));
 
-    osg::ref_ptr<osg::Projection> projection =
-        new osg::Projection(osg::Matrixd::ortho2D(0.0, width, 0.0, height));
-    osg::ref_ptr<osg::MatrixTransform> pixels = new osg::MatrixTransform;
-    pixels->setReferenceFrame(osg::Transform::ABSOLUTE_RF);
-    pixels->addChild(panel);
-    pixels->addChild(scale);
-    projection->addChild(pixels);
-    projection->setStateSet(makeState());
-    projection->setCullingActive(false);
-    return projection;
+    osg::ref_ptr<osg::Group> legend = new osg::Group;
+    legend->addChild(panel);
+    legend->addChild(scale);
+    return osgMultiRender::makeOverlay(width, height, *legend);
 }
 
 } // namespace

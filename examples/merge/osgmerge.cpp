@@ -72,7 +72,8 @@ void declare(examples::CommandLine& line, Arguments& arguments)
     line.add_option("PROGRAM", arguments.files,
                     "a project of ShaderDesigner (name.gdp), one file of a GLSL\n"
                     "pair (name.vert or name.frag, .vs or .fs; the other one is\n"
-                    "found beside it), or an image shader (mainImage)")
+                    "found beside it), an image shader (mainImage), or the name\n"
+                    "of a built-in rendering")
         ->type_name("")
         ->required();
     line.add_option("-o", arguments.output,
@@ -94,6 +95,8 @@ void declare(examples::CommandLine& line, Arguments& arguments)
     line.add_flag_callback(
         "--no-share", [&arguments] { arguments.options.share = false; },
         "does not share equal functions, constants, structs and\nvaryings");
+    line.add_flag("--own-lighting", arguments.options.ownLighting,
+                  "projects have the lights and materials that they hold, not\nthe scene's");
     declareLimits(line, arguments.options.limits);
     line.footer(
         "It ends with 0 if all programs are in the merged one, 1 if some were left out, 2 if "
@@ -216,7 +219,7 @@ int main(int argc, char** argv)
     renderings.reserve(arguments.files.size());
     for (const std::string& file : arguments.files)
     {
-        renderings.push_back(importRendering(file));
+        renderings.push_back(importNamed(file));
         for (const RenderingMessage& message : renderings.back().messages)
             std::cerr << (message.error ? "error: " : "note: ") << message.text << "\n";
         if (renderings.back().ok())

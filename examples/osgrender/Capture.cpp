@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Capture.h"
 
+#include <osgPlugins/headless/Resolve.h>
+
 #include <osg/ClampColor>
 #include <osg/ContextData>
 #include <osg/GLExtensions>
@@ -23,47 +25,6 @@ std::string glString(GLenum name)
     const GLubyte* text = glGetString(name);
     return text ? reinterpret_cast<const char*>(text) : "";
 }
-
-/// Averages a multisampled framebuffer into one that can be read, and makes that the read
-/// framebuffer.
-class Resolve
-{
-public:
-    Resolve(osg::GLExtensions& gl, GLuint from, int width, int height) : _gl(gl), _from(from)
-    {
-        _gl.glGenFramebuffers(1, &_framebuffer);
-        _gl.glGenRenderbuffers(1, &_colors);
-        _gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, _colors);
-        _gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, GL_RGBA8, width, height);
-        _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, _framebuffer);
-        _gl.glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
-                                      GL_RENDERBUFFER_EXT, _colors);
-        // A scissor cuts a blit too.
-        const GLboolean scissor = glIsEnabled(GL_SCISSOR_TEST);
-        glDisable(GL_SCISSOR_TEST);
-        _gl.glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                              GL_NEAREST);
-        if (scissor)
-            glEnable(GL_SCISSOR_TEST);
-        _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, _framebuffer);
-    }
-
-    ~Resolve()
-    {
-        _gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, _from);
-        _gl.glDeleteRenderbuffers(1, &_colors);
-        _gl.glDeleteFramebuffers(1, &_framebuffer);
-    }
-
-    Resolve(const Resolve&) = delete;
-    Resolve& operator=(const Resolve&) = delete;
-
-private:
-    osg::GLExtensions& _gl;
-    GLuint _from;
-    GLuint _framebuffer = 0;
-    GLuint _colors = 0;
-};
 
 } // namespace
 
@@ -148,7 +109,7 @@ void Capture::readDefaultFramebuffer(osg::State& state) const
     // Of a pbuffer, too: Mesa's surfaceless platform reads one sample of it otherwise.
     if (samples > 0 && gl->isFrameBufferObjectSupported)
     {
-        const Resolve resolve(*gl, framebuffer, width, height);
+        const osgHeadless::Resolve resolve(*gl, framebuffer, width, height);
         glReadBuffer(GL_COLOR_ATTACHMENT0_EXT);
         _picture->readPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE);
         return;

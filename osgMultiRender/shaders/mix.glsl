@@ -35,6 +35,21 @@ vec4 osgmr_mixBytes(uint word)
     return vec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u);
 }
 
+float osgmr_squareToLine(int texel, vec3 at)
+{
+    vec4 place = osgmr_mixFloats(texel);
+    vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
+    vec3 away = at - place.xyz;
+    away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
+    return dot(away, away);
+}
+
+float osgmr_squareToPoint(int texel, vec3 at)
+{
+    vec3 away = at - osgmr_mixFloats(texel).xyz;
+    return dot(away, away);
+}
+
 // The least squared distance to segments. One loop for points and one for lines: what is decided
 // within a loop is paid for each segment.
 float osgmr_nearestOf(int texel, int count, vec3 at, float nearest)
@@ -42,19 +57,14 @@ float osgmr_nearestOf(int texel, int count, vec3 at, float nearest)
     if (osgmr_mixKeys.w > 1)
         for (int i = 0; i < count; ++i)
         {
-            vec4 place = osgmr_mixFloats(texel);
-            vec4 line = osgmr_mixFloats(texel + 1); // unit direction; place.w and w are its ends
-            vec3 away = at - place.xyz;
-            away -= clamp(dot(away, line.xyz), place.w, line.w) * line.xyz;
-            float square = dot(away, away);
+            float square = osgmr_squareToLine(texel, at);
             nearest = square < nearest ? square : nearest; // never for what is not a number
             texel += 2;
         }
     else
         for (int i = 0; i < count; ++i)
         {
-            vec3 away = at - osgmr_mixFloats(texel + i).xyz;
-            float square = dot(away, away);
+            float square = osgmr_squareToPoint(texel + i, at);
             nearest = square < nearest ? square : nearest;
         }
     return nearest;
@@ -122,6 +132,27 @@ float osgmr_nearestInTree(vec3 at, float nearest)
     }
 }
 
+// Segments in texels of four indices, the last one included. The position is a number here.
+float osgmr_nearestInList(int first, int last, vec3 at)
+{
+    float nearest = 3e38;
+    if (osgmr_mixKeys.w > 1)
+        for (int i = first; i <= last; ++i)
+        {
+            ivec4 four = osgmr_mixKeys.y + 2 * ivec4(texelFetch(osgmr_mix, i));
+            nearest = min(nearest, min(osgmr_squareToLine(four.x, at), osgmr_squareToLine(four.y, at)));
+            nearest = min(nearest, min(osgmr_squareToLine(four.z, at), osgmr_squareToLine(four.w, at)));
+        }
+    else
+        for (int i = first; i <= last; ++i)
+        {
+            ivec4 four = osgmr_mixKeys.y + ivec4(texelFetch(osgmr_mix, i));
+            nearest = min(nearest, min(osgmr_squareToPoint(four.x, at), osgmr_squareToPoint(four.y, at)));
+            nearest = min(nearest, min(osgmr_squareToPoint(four.z, at), osgmr_squareToPoint(four.w, at)));
+        }
+    return nearest;
+}
+
 int osgmr_cell(int index)
 {
     return int(texelFetch(osgmr_mix, osgmr_mixCells.x + (index >> 2))[index & 3]);
@@ -152,12 +183,8 @@ float osgmr_nearestInCell(vec3 at)
     }
     if (cell == 0)
         return -1.0;
-    int first = (-1 - cell) >> 6;
-    int end = first + ((-1 - cell) & 63) + 1;
-    float nearest = 3e38;
-    for (int i = first; i < end; ++i)
-        nearest = osgmr_nearestOf(osgmr_mixKeys.y + osgmr_cell(i) * osgmr_mixKeys.w, 1, at, nearest);
-    return nearest;
+    int list = osgmr_mixCells.x + ((-1 - cell) >> 4);
+    return osgmr_nearestInList(list, list + ((-1 - cell) & 15), at);
 }
 
 // From a position in eye space, in units of the key points.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Capture.h"
 
+#include <osgPlugins/headless/Resolve.h>
+
 #include <osg/GLExtensions>
 #include <osgDB/FileNameUtils>
 #include <osgDB/Registry>
@@ -28,50 +30,6 @@ Numbers& numbers()
     static auto* instance = new Numbers;
     return *instance;
 }
-
-/// Averages the samples of the bound framebuffer into one of its own, and reads from that.
-///
-/// glReadPixels of a multisampled window is allowed to average, and Mesa's does not: it reads one
-/// sample.
-class Resolve
-{
-public:
-    Resolve(const osg::GLExtensions& gl, int width, int height) : _gl(gl)
-    {
-        _gl.glGenFramebuffers(1, &_framebuffer);
-        _gl.glGenRenderbuffers(1, &_colours);
-        _gl.glBindRenderbuffer(GL_RENDERBUFFER_EXT, _colours);
-        _gl.glRenderbufferStorage(GL_RENDERBUFFER_EXT, GL_RGBA8, width, height);
-        _gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER_EXT, _framebuffer);
-        _gl.glFramebufferRenderbuffer(GL_DRAW_FRAMEBUFFER_EXT, GL_COLOR_ATTACHMENT0_EXT,
-                                      GL_RENDERBUFFER_EXT, _colours);
-        // A scissor cuts a blit too.
-        const GLboolean scissor = glIsEnabled(GL_SCISSOR_TEST);
-        glDisable(GL_SCISSOR_TEST);
-        _gl.glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                              GL_NEAREST);
-        if (scissor)
-        {
-            glEnable(GL_SCISSOR_TEST);
-        }
-        _gl.glBindFramebuffer(GL_READ_FRAMEBUFFER_EXT, _framebuffer);
-    }
-
-    ~Resolve()
-    {
-        _gl.glBindFramebuffer(GL_FRAMEBUFFER_EXT, 0);
-        _gl.glDeleteRenderbuffers(1, &_colours);
-        _gl.glDeleteFramebuffers(1, &_framebuffer);
-    }
-
-    Resolve(const Resolve&) = delete;
-    Resolve& operator=(const Resolve&) = delete;
-
-private:
-    const osg::GLExtensions& _gl;
-    GLuint _framebuffer = 0;
-    GLuint _colours = 0;
-};
 
 unsigned int takeLowestNumber()
 {
@@ -155,7 +113,7 @@ void Capture::take(osg::State& state, unsigned int framebuffer, GLenum buffer, i
         std::optional<Resolve> resolve;
         if (samples > 0)
         {
-            resolve.emplace(*gl, width, height);
+            resolve.emplace(*gl, 0, width, height);
         }
         glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, _frame->data());
     }

@@ -46,6 +46,28 @@ TEST_F(OsgMergeTest, printsTheMergedProgram)
     EXPECT_TRUE(holds(result.output, "vec4 cut_1_main()"));
 }
 
+TEST_F(OsgMergeTest, mergesBuiltInRenderingsByName)
+{
+    const auto result = run({"phong", _red});
+    EXPECT_EQ(result.exitCode, 0) << result.errors;
+    EXPECT_TRUE(holds(result.output, "vec4 phong_0_main()"));
+    EXPECT_TRUE(holds(result.output, "vec4 red_1_main()"));
+}
+
+TEST_F(OsgMergeTest, givesProjectsTheirOwnLightsOnDemand)
+{
+    _folder.write("lit.frag", "void main() { gl_FragColor = gl_FrontMaterial.diffuse; }");
+    const std::string project = _folder.write(
+        "lit.gdp", "<GLSLang><FPCount numero=\"1\"><Filenames><Filename0 "
+                   "FragmentProgram=\"lit.frag\"/></Filenames></FPCount><BuiltInStates>"
+                   "<FrontMaterial DifR=\"0.75\"/></BuiltInStates></GLSLang>");
+    EXPECT_TRUE(holds(run({project}).output, "= gl_FrontMaterial.diffuse"));
+    const auto result = run({"--own-lighting", project});
+    EXPECT_TRUE(holds(result.output, "const gl_MaterialParameters frontMaterial_0 ="));
+    EXPECT_TRUE(holds(result.output, "vec4(0.750000000"));
+    EXPECT_TRUE(holds(result.output, "= frontMaterial_0.diffuse"));
+}
+
 TEST_F(OsgMergeTest, writesTwoFiles)
 {
     const auto result = run({_red, "-o", _folder.file("out")});

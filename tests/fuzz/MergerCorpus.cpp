@@ -30,7 +30,8 @@ int main(int argc, char** argv)
            "<TextureUnit0 Filename=\"../wood.png\" MinFilter=\"9729\"/></TexturedUsed>"
            "<UniformVariables NumberOfVariables=\"2\"><Uniform0 Type=\"7\" Name=\"C\" "
            "ArraySize=\"1\" Min=\"0\" Max=\"1\"><Values Value0=\"0.6\"/></Uniform0>"
-           "</UniformVariables><BuiltInStates><Light0 Enabled=\"True\" PosX=\"1\"/>"
+           "</UniformVariables><BuiltInStates><FrontMaterial DifR=\"0.5\" "
+           "EmiR=\"1e20\"/><Light0 Enabled=\"True\" PosX=\"1\" DifR=\"1e25\"/>"
            "</BuiltInStates></GLSLang>";
     std::ofstream(folder + "/image", std::ios::binary)
         << "\x07void mainImage(out vec4 c, in vec2 at) { c = vec4(at / iResolution.xy, iTime, "

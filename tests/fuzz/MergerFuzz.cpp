@@ -45,6 +45,15 @@ void checkMerged(const Merged& merged, std::size_t count)
     }
 }
 
+constexpr char Lighting[] = R"(
+void main()
+{
+    gl_FragColor = gl_FrontMaterial.diffuse * gl_LightSource[1].halfVector + gl_LightModel.ambient +
+                   gl_BackMaterial.emission + gl_FrontLightModelProduct.sceneColor +
+                   gl_BackLightProduct[0].specular;
+}
+)";
+
 void importAll(const std::string& text)
 {
     const Rendering project = importShaderDesigner(text, "folder/project.gdp");
@@ -52,6 +61,17 @@ void importAll(const std::string& text)
     {
         require(message.text.find('\n') == std::string::npos, "a message is one line");
     }
+    Rendering lit = project;
+    lit.messages.clear();
+    lit.shaders = {{GlslStage::Fragment, Lighting, "lit.frag"}};
+    MergeOptions options;
+    options.ownLighting = true;
+    const Merged merged = mergeRenderings({{&lit, 1.0}}, options);
+    checkMerged(merged, 1);
+    require(merged.fragment.find("(inf") == std::string::npos &&
+                merged.fragment.find(" inf") == std::string::npos &&
+                merged.fragment.find("nan") == std::string::npos,
+            "lights and materials are numbers");
     const Rendering image = importShadertoy(text, "image.frag");
     checkMerged(mergeRenderings({{&image, 1.0}}), 1);
 }

@@ -13,11 +13,21 @@ bool isIn(std::uint32_t number, const FeatureTree::Range& range)
     return number >= range.first && number <= range.last;
 }
 
+class Features : public testing::Test
+{
+protected:
+    bool isOf(FeatureTree::Part part, FeatureTree::Name name)
+    {
+        return isIn(tree.getNumber(part), tree.getRange(name));
+    }
+
+    FeatureTree tree;
+};
+
 } // namespace
 
-TEST(FeatureTree, partsThatNoLabelNamesAreForeign)
+TEST_F(Features, partsThatNoLabelNamesAreForeign)
 {
-    FeatureTree tree;
     const auto house = tree.add(FeatureTree::Scene, 1, "house");
     EXPECT_EQ(tree.getNumber(house), FeatureTree::Foreign);
     EXPECT_EQ(tree.getNumber(FeatureTree::Scene), FeatureTree::Foreign);
@@ -26,53 +36,49 @@ TEST(FeatureTree, partsThatNoLabelNamesAreForeign)
     EXPECT_FALSE(isIn(FeatureTree::Foreign, tree.getRange(tree.use("none such"))));
 }
 
-TEST(FeatureTree, whatLiesInAFeatureIsOfIt)
+TEST_F(Features, whatLiesInAFeatureIsOfIt)
 {
-    FeatureTree tree;
     const auto house = tree.add(FeatureTree::Scene, 1, "house");
     const auto roof = tree.add(house, 2, "roof");
     const auto name = tree.use("house");
-    EXPECT_TRUE(isIn(tree.getNumber(house), tree.getRange(name)));
+    EXPECT_TRUE(isOf(house, name));
     EXPECT_EQ(tree.getNumber(roof), tree.getNumber(house));
     const auto later = tree.add(roof, 3, "chimney");
     EXPECT_EQ(tree.getNumber(later), tree.getNumber(house));
     EXPECT_EQ(tree.add(roof, 3, "chimney"), later) << "once a key";
 }
 
-TEST(FeatureTree, featuresInsideOfAnotherHaveNumbersOfTheirOwnInItsRange)
+TEST_F(Features, featuresInsideOfAnotherHaveNumbersOfTheirOwnInItsRange)
 {
-    FeatureTree tree;
     const auto city = tree.add(FeatureTree::Scene, 1, "city");
     const auto house = tree.add(city, 2, "house");
     const auto tower = tree.add(city, 3, "tower");
     const auto cityName = tree.use("city"), houseName = tree.use("house");
     EXPECT_NE(tree.getNumber(house), tree.getNumber(city));
-    EXPECT_TRUE(isIn(tree.getNumber(house), tree.getRange(cityName)));
-    EXPECT_TRUE(isIn(tree.getNumber(tower), tree.getRange(cityName)));
-    EXPECT_FALSE(isIn(tree.getNumber(tower), tree.getRange(houseName)));
-    EXPECT_FALSE(isIn(tree.getNumber(city), tree.getRange(houseName)));
+    EXPECT_TRUE(isOf(house, cityName));
+    EXPECT_TRUE(isOf(tower, cityName));
+    EXPECT_FALSE(isOf(tower, houseName));
+    EXPECT_FALSE(isOf(city, houseName));
 }
 
-TEST(FeatureTree, partsOfOneNameAreOneFeature)
+TEST_F(Features, partsOfOneNameAreOneFeature)
 {
-    FeatureTree tree;
     const auto a = tree.add(FeatureTree::Scene, 1, "tower");
     const auto between = tree.add(FeatureTree::Scene, 2, "house");
     const auto b = tree.add(FeatureTree::Scene, 3, "tower");
     const auto inner = tree.add(b, 4, "clock");
     const auto tower = tree.use("tower"), house = tree.use("house"), clock = tree.use("clock");
     EXPECT_EQ(tree.getNumber(a), tree.getNumber(b));
-    EXPECT_FALSE(isIn(tree.getNumber(between), tree.getRange(tower)));
-    EXPECT_TRUE(isIn(tree.getNumber(between), tree.getRange(house)));
-    EXPECT_TRUE(isIn(tree.getNumber(inner), tree.getRange(clock)));
-    EXPECT_FALSE(isIn(tree.getNumber(inner), tree.getRange(house)));
-    EXPECT_TRUE(isIn(tree.getNumber(inner), tree.getRange(tower))) << "in whichever it lies";
+    EXPECT_FALSE(isOf(between, tower));
+    EXPECT_TRUE(isOf(between, house));
+    EXPECT_TRUE(isOf(inner, clock));
+    EXPECT_FALSE(isOf(inner, house));
+    EXPECT_TRUE(isOf(inner, tower)) << "in whichever it lies";
     EXPECT_NE(tree.getNumber(inner), tree.getNumber(b));
 }
 
-TEST(FeatureTree, aNameInsideOfItselfAndOfOthersHasOneRange)
+TEST_F(Features, aNameInsideOfItselfAndOfOthersHasOneRange)
 {
-    FeatureTree tree;
     const auto tower = tree.add(FeatureTree::Scene, 1, "tower");
     const auto house = tree.add(tower, 2, "house");
     const auto again = tree.add(house, 3, "tower");
@@ -81,15 +87,14 @@ TEST(FeatureTree, aNameInsideOfItselfAndOfOthersHasOneRange)
     tree.use("house");
     tree.use("clock");
     for (const auto part : {tower, house, again, clock})
-        EXPECT_TRUE(isIn(tree.getNumber(part), tree.getRange(tree.use("tower"))));
+        EXPECT_TRUE(isOf(part, tree.use("tower")));
     EXPECT_LE(range.first, range.last);
     EXPECT_EQ(tree.getNumber(tower), tree.getNumber(again));
-    EXPECT_FALSE(isIn(tree.getNumber(tower), tree.getRange(tree.use("house"))));
+    EXPECT_FALSE(isOf(tower, tree.use("house")));
 }
 
-TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
+TEST_F(Features, labelledPartsAreFeaturesWhateverTheirName)
 {
-    FeatureTree tree;
     const auto a = tree.add(FeatureTree::Scene, 1, "Building");
     const auto b = tree.add(FeatureTree::Scene, 2, "Building");
     tree.addLabel(a);
@@ -99,9 +104,8 @@ TEST(FeatureTree, labelledPartsAreFeaturesWhateverTheirName)
     EXPECT_FALSE(isIn(tree.getNumber(b), tree.getRangeOfPart(a)));
 }
 
-TEST(FeatureTree, countsWhenNumbersChange)
+TEST_F(Features, countsWhenNumbersChange)
 {
-    FeatureTree tree;
     const auto house = tree.add(FeatureTree::Scene, 1, "house");
     tree.getNumber(house);
     const unsigned int before = tree.getModifiedCount();
@@ -117,21 +121,19 @@ TEST(FeatureTree, countsWhenNumbersChange)
     EXPECT_EQ(tree.getModifiedCount(), after);
 }
 
-TEST(FeatureTree, aKeyThatComesAgainWithAnotherNameIsAnotherPart)
+TEST_F(Features, aKeyThatComesAgainWithAnotherNameIsAnotherPart)
 {
-    FeatureTree tree;
     const auto house = tree.use("house"), barn = tree.use("barn");
     const auto first = tree.add(FeatureTree::Scene, 1, "house");
     const auto second = tree.add(FeatureTree::Scene, 1, "barn");
-    EXPECT_TRUE(isIn(tree.getNumber(second), tree.getRange(barn)));
-    EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
+    EXPECT_TRUE(isOf(second, barn));
+    EXPECT_FALSE(isOf(second, house));
     EXPECT_EQ(tree.add(FeatureTree::Scene, 1, "barn"), second);
-    EXPECT_TRUE(isIn(tree.getNumber(first), tree.getRange(house)));
+    EXPECT_TRUE(isOf(first, house));
 }
 
-TEST(FeatureTree, aPartStaysWhileItIsHeldOrSomethingInItIs)
+TEST_F(Features, aPartStaysWhileItIsHeldOrSomethingInItIs)
 {
-    FeatureTree tree;
     const auto house = tree.add(FeatureTree::Scene, 1, "house");
     const auto roof = tree.add(house, 2, "roof");
     tree.hold(house);
@@ -146,9 +148,8 @@ TEST(FeatureTree, aPartStaysWhileItIsHeldOrSomethingInItIs)
     EXPECT_EQ(tree.getNameCount(), 0u);
 }
 
-TEST(FeatureTree, aPartThatIsGoneIsNoFeatureAnyMore)
+TEST_F(Features, aPartThatIsGoneIsNoFeatureAnyMore)
 {
-    FeatureTree tree;
     const auto name = tree.use("house");
     std::vector<FeatureTree::Part> houses;
     for (std::uint64_t key = 1; key <= 3; ++key)
@@ -157,8 +158,8 @@ TEST(FeatureTree, aPartThatIsGoneIsNoFeatureAnyMore)
     tree.hold(shed);
     tree.release(houses[0]); // the shed keeps it
     tree.release(houses[1]);
-    EXPECT_TRUE(isIn(tree.getNumber(houses[2]), tree.getRange(name)));
-    EXPECT_TRUE(isIn(tree.getNumber(shed), tree.getRange(name)));
+    EXPECT_TRUE(isOf(houses[2], name));
+    EXPECT_TRUE(isOf(shed, name));
     tree.release(shed);
     tree.release(houses[2]);
     EXPECT_EQ(tree.getPartCount(), 1u);
@@ -170,9 +171,8 @@ TEST(FeatureTree, aPartThatIsGoneIsNoFeatureAnyMore)
     EXPECT_EQ(tree.getNumber(again), FeatureTree::Foreign) << "no label names it";
 }
 
-TEST(FeatureTree, numbersThatAPartLeavesAreNotThoseOfAnother)
+TEST_F(Features, numbersThatAPartLeavesAreNotThoseOfAnother)
 {
-    FeatureTree tree;
     const auto house = tree.use("house"), barn = tree.use("barn");
     const auto first = tree.add(FeatureTree::Scene, 1, "house");
     const auto second = tree.add(FeatureTree::Scene, 2, "barn");
@@ -183,13 +183,12 @@ TEST(FeatureTree, numbersThatAPartLeavesAreNotThoseOfAnother)
     EXPECT_EQ(tree.getNumber(second), before);
     const auto third = tree.add(FeatureTree::Scene, 3, "");
     EXPECT_EQ(tree.getNumber(third), FeatureTree::Foreign);
-    EXPECT_FALSE(isIn(tree.getNumber(second), tree.getRange(house)));
-    EXPECT_TRUE(isIn(tree.getNumber(second), tree.getRange(barn)));
+    EXPECT_FALSE(isOf(second, house));
+    EXPECT_TRUE(isOf(second, barn));
 }
 
-TEST(FeatureTree, labelsOfAPartEndWithTheLastOne)
+TEST_F(Features, labelsOfAPartEndWithTheLastOne)
 {
-    FeatureTree tree;
     const auto house = tree.add(FeatureTree::Scene, 1, "");
     tree.hold(house);
     tree.addLabel(house);
@@ -202,9 +201,8 @@ TEST(FeatureTree, labelsOfAPartEndWithTheLastOne)
     EXPECT_EQ(tree.getPartCount(), 1u);
 }
 
-TEST(FeatureTree, nestingSaysWhatIsAroundANumber)
+TEST_F(Features, nestingSaysWhatIsAroundANumber)
 {
-    FeatureTree tree;
     const auto campus = tree.add(FeatureTree::Scene, 1, "campus");
     const auto house = tree.add(campus, 2, "house");
     const auto wing = tree.add(house, 3, "wing");

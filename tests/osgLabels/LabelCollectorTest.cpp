@@ -260,3 +260,37 @@ TEST_F(LabelCollectorTest, leavesOfACullTraversalAreFound)
     for (std::size_t i = 0; i < objects.size(); ++i)
         EXPECT_EQ(objects[i], objects[0] + i); // leaves and objects are in the order of traversal
 }
+
+TEST_F(LabelCollectorTest, scalesThatNoObjectHasAnyMoreAreForgotten)
+{
+    osg::ref_ptr<osg::Geometry> stays = makeQuad();
+    group->addChild(under("stays", osg::Matrixd::scale(2, 1, 1), stays.get()));
+    collector.collect(*group);
+    const auto scaleOf = [&](const osg::Drawable& drawable)
+    {
+        for (std::uint32_t object = 1; object < collector.getObjectCount(); ++object)
+            if (const auto found = collector.getObject(object); found.drawable == &drawable)
+                return std::make_pair(found.scale, collector.getScale(found));
+        return std::make_pair(0u, std::shared_ptr<const osg::Matrixd>());
+    };
+    const auto [first, kept] = scaleOf(*stays);
+    ASSERT_TRUE(kept);
+    std::shared_ptr<const osg::Matrixd> before;
+    for (int i = 0; i < 1000; ++i)
+    {
+        osg::ref_ptr<osg::Geometry> quad = makeQuad();
+        const double factor = 3.0 + 0.01 * i;
+        group->addChild(under("guest", osg::Matrixd::scale(factor, 1, 1), quad.get()));
+        textOf(*quad, osg::Matrixd::scale(factor, 1, 1)); // finds what is new
+        const auto [number, scale] = scaleOf(*quad);
+        ASSERT_TRUE(scale) << i;
+        ASSERT_NEAR((*scale)(0, 0) / (*scale)(1, 1), factor, 1e-9) << i;
+        ASSERT_LE(number, 3u) << "numbers are given again";
+        if (before)
+            ASSERT_LT((*before)(0, 0), (*scale)(0, 0)) << "what a frame has taken stays as it was";
+        before = scale;
+        group->removeChild(1);
+        collector.sweep(*group, 10);
+    }
+    EXPECT_EQ(scaleOf(*stays), std::make_pair(first, kept));
+}

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Ink that chooses itself: one colour a letter, whatever crosses it, and always to be read.
-#include "LabelPictures.h"
-
-#include <support/NotifyCapture.h>
+#include "InkReadings.h"
 
 #include <osg/Light>
 #include <osg/LightSource>
@@ -13,139 +11,21 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <tuple>
 #include <vector>
 
-using namespace labelScene;
+using namespace inkReadings;
+using labelScene::fromFront;
+using labelScene::named;
+using labelScene::rectangle;
+using labelScene::unlit;
 
 namespace
 {
 
-constexpr int Wide = 480, High = 360;
-constexpr char Marked[] = "ink=#ff00ff,plate=off"; // a colour that no scene has
-
 /// Letters that hang together. A plate ends with its text, so that at the rim of a sphere less than
 /// a pixel of it would be beside the last letter.
 constexpr char Name[] = " HELUNTS ";
-
-support::HeadlessViewer& inkViewer()
-{
-    static support::HeadlessViewer theViewer({Wide, High});
-    theViewer.getViewer().setLightingMode(osg::View::NO_LIGHT);
-    return theViewer;
-}
-
-double luminanceOf(const osg::Vec4& color)
-{
-    const auto linear = [](double c)
-    { return c < 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
-    return 0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b());
-}
-
-double contrast(double a, double b)
-{
-    return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
-}
-
-/// What shows that a model's letters can be read.
-struct Readings
-{
-    int letters = 0, black = 0, white = 0; ///< Black and white pixels of ink.
-    int twoColored = 0;                    ///< Letters.
-    double worst = 21.0;                   ///< Contrast of ink to what surrounds it.
-};
-
-/// Pixels that are ink through and through, by letters, which are those that hang together.
-std::vector<std::vector<int>> lettersOf(const osg::Image& marked)
-{
-    const auto isInk = [&](int at)
-    { return marked.getColor(unsigned(at % Wide), unsigned(at / Wide)) == osg::Vec4(1, 0, 1, 1); };
-    std::vector<bool> seen(std::size_t(Wide) * High);
-    std::vector<std::vector<int>> letters;
-    for (int start = 0; start < Wide * High; ++start)
-    {
-        if (seen[std::size_t(start)] || !isInk(start))
-            continue;
-        std::vector<int> letter, open{start};
-        seen[std::size_t(start)] = true;
-        while (!open.empty())
-        {
-            const int at = open.back();
-            open.pop_back();
-            letter.push_back(at);
-            for (const int next : {at - 1, at + 1, at - Wide, at + Wide})
-                if (next >= 0 && next < Wide * High && !seen[std::size_t(next)] && isInk(next))
-                {
-                    seen[std::size_t(next)] = true;
-                    open.push_back(next);
-                }
-        }
-        if (letter.size() > 8)
-            letters.push_back(letter);
-    }
-    return letters;
-}
-
-/// Compares the model's labels in ink that chooses itself with the same in a colour of their own.
-Readings readingsOf(osg::Node* model, const support::CameraSpec& camera, const std::string& name,
-                    const std::string& settings = "")
-{
-    const std::string both = Marked + (settings.empty() ? "" : "," + settings);
-    const Picture marked = inkViewer().render(labelled(model, both), camera, Wide, High, 2);
-    const Picture picture = inkViewer().render(labelled(model, settings), camera, Wide, High, 2);
-    keep(picture, "labelInk." + name);
-    const auto at = [](const osg::Image& image, int pixel)
-    { return image.getColor(unsigned(pixel % Wide), unsigned(pixel / Wide)); };
-    // Without any ink, as far as 8 bits tell.
-    const Picture bare = inkViewer().render(model, camera, Wide, High, 2);
-    const auto isBare = [&](int pixel) { return at(*marked, pixel) == at(*bare, pixel); };
-    // Where a bent surface turns away, what is beside a letter may be beside its text.
-    Picture plates;
-    if (!settings.empty())
-        plates = inkViewer().render(labelled(model, "ink=#00ff00,plate=#00ff00," + settings),
-                                    camera, Wide, High, 2);
-    const auto isBeside = [&](int pixel)
-    { return plates && at(*plates, pixel) != osg::Vec4(0, 1, 0, 1); };
-    // What surrounds a pixel of ink: the first ones without any, beyond an edge that is smoothed
-    // over a pixel or two.
-    const auto worstAround = [&](int pixel, double ink)
-    {
-        double worst = 21.0;
-        for (int direction = 0; direction < 9; ++direction)
-            for (int step = 1; step <= 3; ++step)
-            {
-                const int x = pixel % Wide + step * (direction % 3 - 1);
-                const int y = pixel / Wide + step * (direction / 3 - 1);
-                const int next = y * Wide + x;
-                if (x < 0 || x >= Wide || y < 0 || y >= High || !isBare(next))
-                    continue;
-                if (isBeside(next))
-                    break;
-                worst = std::min(worst, contrast(ink, luminanceOf(at(*picture, next))));
-                break;
-            }
-        return worst;
-    };
-    Readings found;
-    for (const std::vector<int>& letter : lettersOf(*marked))
-    {
-        int black = 0, white = 0;
-        for (const int pixel : letter)
-        {
-            const double ink = luminanceOf(at(*picture, pixel));
-            black += ink < 0.01;
-            white += ink > 0.99;
-            found.worst = std::min(found.worst, worstAround(pixel, ink));
-        }
-        EXPECT_EQ(std::size_t(black + white), letter.size()) << name << ": ink is black or white";
-        found.twoColored += black && white;
-        found.black += black;
-        found.white += white;
-        ++found.letters;
-    }
-    return found;
-}
 
 osg::ref_ptr<osg::Texture2D> greyTexture(const std::function<float(float, float)>& grey)
 {
@@ -226,24 +106,6 @@ osg::ref_ptr<osg::Node> shiny(osg::Shape* shape)
     return group;
 }
 
-void expectReadable(const Readings& found, const std::string& name)
-{
-    EXPECT_GE(found.letters, 7) << name;
-    EXPECT_EQ(found.twoColored, 0) << name << ": letters of two colours";
-    EXPECT_GE(found.worst, 4.5) << name;
-    std::cout << name << ": " << found.letters << " letters, contrast at least " << found.worst
-              << ", " << found.black << " black and " << found.white << " white pixels\n";
-}
-
-/// That, and that no pixel of the model has another ink.
-void expectOneInk(Readings found, const std::string& name, int leastLetters)
-{
-    EXPECT_EQ(std::min(found.black, found.white), 0) << name;
-    EXPECT_GE(found.letters, leastLetters) << name;
-    found.letters = std::max(found.letters, 7); // some are turned away
-    expectReadable(found, name);
-}
-
 support::CameraSpec from(const osg::Vec3d& eye)
 {
     return support::CameraSpec::perspective(eye, {0, 0, 0}, {0, 0, 1}, 35.0, double(Wide) / High,
@@ -253,7 +115,7 @@ support::CameraSpec from(const osg::Vec3d& eye)
 class LabelInk : public testing::Test
 {
 protected:
-    void SetUp() override { OSGKITS_NEED_GL(inkViewer()); }
+    void SetUp() override { OSGKITS_NEED_GL(viewer()); }
 
     support::NotifyCapture _notify;
 };
@@ -276,7 +138,7 @@ TEST_F(LabelInk, edgesAndRampsDoNotSplitALetter)
          }},
         {"stripes", [](float x, float) { return 0.5f + 0.5f * std::sin(60.0f * x); }}};
     for (const auto& [name, grey] : pictures)
-        expectReadable(readingsOf(painted(grey), fromFront(), name), name);
+        expectReadable(readingsOf(painted(grey), fromFront(), name), name, 7);
 }
 
 TEST_F(LabelInk, blackOnWhiteAndWhiteOnBlackAreLeftAsTheyAre)
@@ -308,9 +170,7 @@ TEST_F(LabelInk, highlightsOnRoundShapesDoNotSplitALetter)
                 {3.2 * std::sin(angle), -3.2 * std::cos(angle), 0.5 * turn - 0.4}, {0, 0, 0},
                 {0, 0, 1}, 35.0, double(Wide) / High, 0.5, 20.0);
             const std::string each = std::string(name) + std::to_string(turn);
-            Readings found = readingsOf(shiny(shape), camera, each);
-            found.letters = std::max(found.letters, 7); // some are turned away
-            expectReadable(found, each);
+            expectReadable(readingsOf(shiny(shape), camera, each), each, 7);
         }
 }
 
@@ -318,7 +178,7 @@ TEST_F(LabelInk, surfacesThatAreLabelledAsTheyAreDrawnHaveOneInk)
 {
     const auto board = painted([](float x, float) { return x; });
     board->getOrCreateStateSet()->setRenderBinDetails(10, "DepthSortedBin");
-    expectReadable(readingsOf(board, fromFront(), "sorted"), "sorted");
+    expectReadable(readingsOf(board, fromFront(), "sorted"), "sorted", 7);
 }
 
 TEST_F(LabelInk, whatHidesALineDoesNotChooseItsInk)
@@ -370,7 +230,7 @@ TEST_F(LabelInk, alongTextureCoordinatesOnBentSurfacesAnObjectHasOneInk)
             const double angle = turn;
             const Readings found = readingsOf(
                 model, from({3.2 * std::sin(angle), -3.2 * std::cos(angle), 0.8 - 0.4 * turn}),
-                each, "texcoord=0");
+                each, "texcoord=0", Beside::Plates);
             expectOneInk(found, each, 0);
             letters += found.letters;
         }
@@ -388,7 +248,8 @@ TEST_F(LabelInk, whatHidesTheMiddleOfABentSurfaceDoesNotSplitItsInk)
         group->addChild(unlit(named("", rectangle({-0.5f, -2.0f, -half}, {1.0f, 0, 0},
                                                   {0, 0, 2.0f * half}, {0, 0, 0, 1}))));
         const std::string name = "barredArch" + std::to_string(int(100.0f * half));
-        const Readings found = readingsOf(group, from({0.4, -3.2, 0.3}), name, "texcoord=0");
+        const Readings found =
+            readingsOf(group, from({0.4, -3.2, 0.3}), name, "texcoord=0", Beside::Plates);
         EXPECT_EQ(std::min(found.black, found.white), 0) << name;
         EXPECT_GT(found.letters, 0) << name;
     }

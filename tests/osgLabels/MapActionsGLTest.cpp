@@ -8,20 +8,12 @@
 #include <osg/ValueObject>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 
 namespace
 {
 
-class MapActions : public testing::Test
+class MapActions : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 const char* const Look = "surface=off,declutter=off,mapsize=24,ink=#000000,plate=#ffffff";

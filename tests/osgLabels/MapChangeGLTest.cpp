@@ -13,24 +13,13 @@
 #include <limits>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::render;
 using osgLabels::LabelScene;
 
 namespace
 {
 
-class MapChange : public testing::Test
+class MapChange : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-    void TearDown() override
-    {
-        if (labelScene::viewer().isValid())
-            labelScene::viewer().setSimulationTime(0.0);
-    }
-
-    support::NotifyCapture _notify;
 };
 
 constexpr char Blue[] = "styles='blue:ink=#0000ff,plate=#0000ff'";
@@ -285,7 +274,7 @@ TEST_F(MapChange, aMeshThatIsOpenedIsJudgedAgain)
     EXPECT_GT(redPixels(*render(*top)), 100);
 }
 
-TEST_F(MapChange, keysChangeTestActionAndDecluttering)
+TEST_F(MapChange, keysChangeTestActionDeclutteringAndWhetherThereAreLabels)
 {
     const auto top = withKeys({half(), label("longer text", {-0.1, 0, 0}),
                                label("longer text", {-0.1, 0, 0.05}, "", 1.0)});
@@ -309,5 +298,9 @@ TEST_F(MapChange, keysChangeTestActionAndDecluttering)
     EXPECT_EQ(press(*top, 'U'), Lines({"osgLabels: maptest=share"}));
     EXPECT_EQ(press(*top, 'U'), Lines({"osgLabels: maptest=pixel"}));
     EXPECT_EQ(press(*top, 'G'), Lines({"osgLabels: declutter=off"}));
+    EXPECT_EQ(redPixels(*drawOne(*top)), both);
+    press(*top, 'L');
+    EXPECT_EQ(redPixels(*drawOne(*top)), 0);
+    press(*top, 'L');
     EXPECT_EQ(redPixels(*drawOne(*top)), both);
 }

@@ -6,28 +6,17 @@
 #include <osgLabels/PrimitiveBatch.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
-#include <support/NotifyCapture.h>
-
 #include <osg/Camera>
 #include <osg/LightSource>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 using osgLabels::LabelScene;
 
 namespace
 {
 
-class MapComposition : public testing::Test
+class MapComposition : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-    void TearDown() override { EXPECT_EQ(_notify.takeWarnings(), support::NotifyCapture::Lines()); }
-
-    support::NotifyCapture _notify;
 };
 
 osg::ref_ptr<osg::Geode> before(const std::string& name = "before")

@@ -9,21 +9,12 @@
 #include <limits>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 
 namespace
 {
 
-class MapExtreme : public testing::Test
+class MapExtreme : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-    void TearDown() override { EXPECT_EQ(_notify.takeWarnings(), support::NotifyCapture::Lines()); }
-
-    support::NotifyCapture _notify;
 };
 
 int whole(const std::string& text, const osg::Vec3d& anchor,

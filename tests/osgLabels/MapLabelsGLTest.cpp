@@ -2,25 +2,15 @@
 // What hides a map label and what does not.
 #include "MapPictures.h"
 
-#include <support/NotifyCapture.h>
-
 #include <osg/MatrixTransform>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 
 namespace
 {
 
-class MapLabels : public testing::Test
+class MapLabels : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 /// A box seen in the middle, from y = -0.3 to 0.3.

@@ -2,26 +2,16 @@
 // Sizes, plates, leader lines, depths and tests of map labels; several views and samples.
 #include "MapPictures.h"
 
-#include <support/NotifyCapture.h>
-
 #include <osg/MatrixTransform>
 #include <osg/ValueObject>
 
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 
 namespace
 {
 
-class MapLook : public testing::Test
+class MapLook : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-
-    support::NotifyCapture _notify;
 };
 
 struct Extent

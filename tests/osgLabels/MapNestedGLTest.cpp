@@ -2,30 +2,27 @@
 // Features inside of features that all have labels, and views of several projections.
 #include "MapPictures.h"
 
-#include <support/NotifyCapture.h>
-
 #include <osg/Camera>
 
+#include <algorithm>
+
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::keep;
-using labelScene::render;
 
 namespace
 {
 
-class MapNested : public testing::Test
+class MapNested : public MapTest
 {
-protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-    void TearDown() override { EXPECT_EQ(_notify.takeWarnings(), support::NotifyCapture::Lines()); }
-
-    support::NotifyCapture _notify;
 };
 
 /// Edges of plates are mixed with what is behind them.
 constexpr int Edges = 12;
+
+/// From box to box.
+float gapOf(int levels)
+{
+    return std::min(0.15f, 2.0f / float(levels));
+}
 
 /// Thin boxes one behind the other, from the eye on, each in the feature of the one behind: "1" is
 /// the outermost and the last one, before the wall, which is of no feature, and the label.
@@ -38,9 +35,9 @@ osg::ref_ptr<osg::Group> nested(int levels)
     {
         osg::ref_ptr<osg::Group> feature = new osg::Group;
         feature->setName(std::to_string(i));
-        const float shade = 0.4f + 0.05f * float(i);
-        feature->addChild(
-            box("", {0, 0.3f - 0.15f * float(i), 0}, {0.7f, 0.05f, 0.2f}, {shade, 0.7f, shade, 1}));
+        const float shade = 0.4f + 0.5f * float(i) / float(levels);
+        feature->addChild(box("", {0, 0.3f - gapOf(levels) * float(i), 0},
+                              {0.7f, gapOf(levels) / 3.0f, 0.2f}, {shade, 0.7f, shade, 1}));
         around->addChild(feature);
         around = feature;
     }
@@ -79,7 +76,7 @@ TEST_F(MapNested, whatStandsBehindSeveralFeaturesThatAreTheLabelsOwnHidesIt)
 {
     const osg::Vec3d behind(0, 0.9, 0), beside(0.55, 0.9, 0);
     const int whole = redPixels(*render(*scene({label("mm", beside)})));
-    for (const int levels : {1, 2, 3, 5})
+    for (const int levels : {1, 2, 3, 5, 7, 9})
         for (int own = 1; own <= levels; ++own)
         {
             const std::string what = std::to_string(own) + " of " + std::to_string(levels);
@@ -108,10 +105,23 @@ TEST_F(MapNested, layersAreDrawnForTheDepthsThatLabelsInViewNeed)
     EXPECT_EQ(needs(3, 2), 2 * 4.0);
 }
 
-TEST_F(MapNested, nineInEachOtherShareTheLastLayers)
+TEST_F(MapNested, thirtyDepthsHaveALayerEachAndDeeperOnesShareTheLastAsThePlanSays)
 {
-    for (int own = 1; own <= 9; ++own)
-        EXPECT_EQ(redInTheMiddle(*labels(9, own, {0, 0.9, 0})), 0) << own;
+    // Behind the box of the feature around its own, and before that of the next one around.
+    const auto between = [](int levels, int own)
+    {
+        const double y = 0.3 - gapOf(levels) * (own - 1.5);
+        const auto top = labels(levels, own, {0, y, 0});
+        const int red = redInTheMiddle(*top);
+        return std::pair(red, countOf(*top, "map.depths.sharing"));
+    };
+    for (const int own : {2, 7, 16, 29, 30})
+    {
+        EXPECT_EQ(between(31, own), std::pair(0, 0.0)) << own;
+        EXPECT_EQ(between(33, own), std::pair(0, 2.0)) << own;
+    }
+    for (const int own : {31, 32})
+        EXPECT_GT(between(33, own).first, 0) << "what shares a layer is shown rather than hidden";
 }
 
 TEST_F(MapNested, picksAgreeWithWhatIsSeen)

@@ -6,6 +6,12 @@ namespace mapScene
 
 const char* const RedPlate = "ink=#ff0000,plate=#ff0000,declutter=off";
 
+void MapTest::TearDown()
+{
+    if (labelScene::viewer().isValid())
+        labelScene::viewer().setSimulationTime(0.0);
+}
+
 osg::ref_ptr<osgLabels::MapLabels> label(const std::string& text, const osg::Vec3d& anchor,
                                          const std::string& feature, double priority)
 {

@@ -11,7 +11,19 @@
 namespace mapScene
 {
 
+using labelScene::box;
+using labelScene::countOf;
+using labelScene::keep;
 using labelScene::Picture;
+using labelScene::render;
+
+/// The fixture of tests that draw map labels, which remember what was before: each begins at time
+/// 0. Warnings that no test takes are failures.
+class MapTest : public labelScene::PictureTest
+{
+protected:
+    void TearDown() override;
+};
 
 /// A label with an opaque plate of pure red and no letters to be seen, so that its pixels are
 /// known.

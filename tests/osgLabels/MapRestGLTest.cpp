@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 using namespace mapScene;
-using labelScene::box;
 
 namespace
 {
@@ -16,16 +15,9 @@ constexpr int Width = 128, Height = 96;
 constexpr int Labels = 5;
 const bool isLong = std::getenv("OSGKITS_LONG") != nullptr;
 
-class MapRest : public testing::TestWithParam<const char*>
+class MapRest : public MapTest, public testing::WithParamInterface<const char*>
 {
 protected:
-    void SetUp() override { OSGKITS_NEED_GL(labelScene::viewer()); }
-    void TearDown() override
-    {
-        if (labelScene::viewer().isValid())
-            labelScene::viewer().setSimulationTime(0.0);
-    }
-
     /// Labels in a row, behind posts that stand as far apart.
     static osg::ref_ptr<osgLabels::LabelScene> street(const std::string& settings)
     {

@@ -2,33 +2,15 @@
 // What views remember of map labels: states of whole labels, and decluttering over time.
 #include "MapPictures.h"
 
-#include <support/NotifyCapture.h>
-
 using namespace mapScene;
-using labelScene::box;
-using labelScene::countOf;
-using labelScene::render;
 
 namespace
 {
 
-class MapStates : public testing::Test
+class MapStates : public MapTest
 {
 protected:
-    void SetUp() override
-    {
-        OSGKITS_NEED_GL(labelScene::viewer());
-        setTime(0.0);
-    }
-    void TearDown() override
-    {
-        if (labelScene::viewer().isValid())
-            setTime(0.0);
-    }
-
     static void setTime(double seconds) { labelScene::viewer().setSimulationTime(seconds); }
-
-    support::NotifyCapture _notify;
 };
 
 osg::ref_ptr<osg::Geode> before()

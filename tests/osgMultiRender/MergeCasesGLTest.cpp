@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 using namespace osgMultiRender;
 
 namespace
@@ -26,22 +24,9 @@ std::string messagesOf(const Merged& merged)
     return text;
 }
 
-class MergeCasesGLTest : public ::testing::TestWithParam<std::size_t>
+class MergeCasesGLTest : public PlainGLTest, public ::testing::WithParamInterface<std::size_t>
 {
 protected:
-    void SetUp() override
-    {
-        if (_context.current())
-        {
-            return;
-        }
-        if (std::getenv("OSGKITS_REQUIRE_GL"))
-        {
-            FAIL() << "no EGL context, and OSGKITS_REQUIRE_GL is set";
-        }
-        GTEST_SKIP() << "no surfaceless EGL context: nothing was compared";
-    }
-
     void check(const std::vector<MergeEntry>& entries)
     {
         MergeStudio studio;
@@ -91,7 +76,6 @@ protected:
         return false;
     }
 
-    PlainContext _context;
     bool _compared = false;
 };
 

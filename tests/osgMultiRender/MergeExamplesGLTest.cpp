@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -39,17 +38,14 @@ std::string errorsOf(const Merged& merged)
     return text;
 }
 
-class MergeExamplesGLTest : public ::testing::Test
+class MergeExamplesGLTest : public PlainGLTest
 {
 protected:
     void SetUp() override
     {
-        if (!_context.current())
-        {
-            if (std::getenv("OSGKITS_REQUIRE_GL"))
-                FAIL() << "no EGL context, and OSGKITS_REQUIRE_GL is set";
-            GTEST_SKIP() << "no surfaceless EGL context: nothing was compared";
-        }
+        PlainGLTest::SetUp();
+        if (!hasContext())
+            return;
         if (!std::filesystem::exists(Folder))
             GTEST_SKIP() << "the package openscenegraph-examples is not installed";
         std::vector<std::filesystem::path> files;
@@ -108,7 +104,6 @@ protected:
         return mergeRenderings({{&mergePartner(), 1.0}, {&program, 1.0}}, options);
     }
 
-    PlainContext _context;
     std::vector<Rendering> _programs;
     int _shaders = 0;
 };

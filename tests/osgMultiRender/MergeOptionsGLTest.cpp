@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <set>
 
 using namespace osgMultiRender;
@@ -30,22 +29,9 @@ Rendering colored(const char* name, const std::string& color, const std::string&
                                color + ", 0.0, 1.0); }");
 }
 
-class MergeOptionsGLTest : public ::testing::Test
+class MergeOptionsGLTest : public PlainGLTest
 {
 protected:
-    void SetUp() override
-    {
-        if (_context.current())
-        {
-            return;
-        }
-        if (std::getenv("OSGKITS_REQUIRE_GL"))
-        {
-            FAIL() << "no EGL context, and OSGKITS_REQUIRE_GL is set";
-        }
-        GTEST_SKIP() << "no surfaceless EGL context: nothing was drawn";
-    }
-
     /// The colour in the middle of the picture.
     std::vector<float> draw(const std::vector<Rendering>& renderings)
     {
@@ -72,7 +58,6 @@ protected:
         EXPECT_NEAR(color[3], a, 1e-4);
     }
 
-    PlainContext _context;
     MergeOptions _options;
     const Rendering _red = colored("red", "0.75, 0.0");
     const Rendering _green = colored("green", "0.0, 0.5");

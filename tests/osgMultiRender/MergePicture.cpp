@@ -133,6 +133,44 @@ void vertex(int i, int j, const std::vector<std::pair<int, unsigned int>>& attri
     glVertex3f(x, y, z);
 }
 
+void setMaterial(GLenum face, const RenderingMaterial& material)
+{
+    glMaterialfv(face, GL_AMBIENT, material.ambient.data());
+    glMaterialfv(face, GL_DIFFUSE, material.diffuse.data());
+    glMaterialfv(face, GL_SPECULAR, material.specular.data());
+    glMaterialfv(face, GL_EMISSION, material.emission.data());
+    glMaterialf(face, GL_SHININESS, material.shininess);
+}
+
+/// As GL itself takes them, in eye coordinates.
+void setLighting(const RenderingState& state)
+{
+    glMatrixMode(GL_MODELVIEW);
+    glPushMatrix();
+    glLoadIdentity();
+    for (const RenderingLight& light : state.lights)
+    {
+        const GLenum name = GL_LIGHT0 + light.number;
+        glLightfv(name, GL_AMBIENT, light.ambient.data());
+        glLightfv(name, GL_DIFFUSE, light.diffuse.data());
+        glLightfv(name, GL_SPECULAR, light.specular.data());
+        glLightfv(name, GL_POSITION, light.position.data());
+        glLightfv(name, GL_SPOT_DIRECTION, light.spotDirection.data());
+        glLightf(name, GL_SPOT_EXPONENT, light.spotExponent);
+        glLightf(name, GL_SPOT_CUTOFF, light.spotCutoff);
+        glLightf(name, GL_CONSTANT_ATTENUATION, light.attenuation[0]);
+        glLightf(name, GL_LINEAR_ATTENUATION, light.attenuation[1]);
+        glLightf(name, GL_QUADRATIC_ATTENUATION, light.attenuation[2]);
+    }
+    glPopMatrix();
+    if (state.hasMaterials)
+    {
+        glLightModelfv(GL_LIGHT_MODEL_AMBIENT, state.modelAmbient.data());
+        setMaterial(GL_FRONT, state.front);
+        setMaterial(GL_BACK, state.back);
+    }
+}
+
 void setFixedState()
 {
     glMatrixMode(GL_PROJECTION);
@@ -234,6 +272,16 @@ MergePicture MergeStudio::drawAlone(const Rendering& rendering)
     picture = draw(program, attributes);
     glDisable(GL_ALPHA_TEST);
     picture.log = program.log();
+    return picture;
+}
+
+MergePicture MergeStudio::drawUnderOwnLighting(const Rendering& rendering)
+{
+    glPushAttrib(GL_LIGHTING_BIT);
+    _lighting = &rendering.state;
+    MergePicture picture = drawAlone(rendering);
+    _lighting = nullptr;
+    glPopAttrib();
     return picture;
 }
 
@@ -351,6 +399,10 @@ MergePicture MergeStudio::draw(const PlainProgram& program,
     glClearBufferfv(GL_COLOR, 0, empty);
     glClearBufferfv(GL_DEPTH, 0, &far);
     setFixedState();
+    if (_lighting)
+    {
+        setLighting(*_lighting);
+    }
     glUseProgram(program.id());
     for (int i = 0; i < 16; ++i)
     {

@@ -48,6 +48,9 @@ public:
     /// The rendering's own program, as its author wrote it.
     MergePicture drawAlone(const Rendering& rendering);
 
+    /// The same under the lights and materials of its description.
+    MergePicture drawUnderOwnLighting(const Rendering& rendering);
+
     /// The merged program; `entries` are those that it was made of.
     MergePicture drawMerged(const Merged& merged, const std::vector<MergeEntry>& entries);
 
@@ -70,5 +73,6 @@ private:
                      const std::vector<MergeEntry>& entries);
 
     unsigned int _frame = 0, _color = 0, _depth = 0;
+    const osgMultiRender::RenderingState* _lighting = nullptr; ///< Null: the studio's.
     std::vector<unsigned int> _textures;
 };

@@ -93,7 +93,7 @@ TEST(MixFileTest, textsAndFilesHoldTheWholeMix)
                              "range": [1, 2, 3, "inf"], "uniforms": {"gloss": 7}},
                              {"name": "mine", "fragment": "void main() { gl_FragColor = vec4(1); }"}],
                              "points": [[1e7, 0.1, -3]], "mode": "loop", "base": 1,
-                             "background": "transparent", "programs": 5, "keys": false})",
+                             "background": "transparent", "lighting": "own", "programs": 5, "keys": false})",
                          "", error))
         << error;
     scene->removeRendering(0); // numbers of a text have no gaps
@@ -102,6 +102,7 @@ TEST(MixFileTest, textsAndFilesHoldTheWholeMix)
     other->setMixText(text);
     EXPECT_EQ(other->getMixText(), text);
     EXPECT_EQ(other->getRules().base, 0);
+    EXPECT_TRUE(other->getOwnLighting());
     EXPECT_EQ(other->getUniform(0, "gloss"), std::vector<double>{7});
     EXPECT_EQ(other->getRendering(1)->name, "mine");
     for (const char* const format : {"osgt", "osgb", "osgx"})

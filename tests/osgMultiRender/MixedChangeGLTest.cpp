@@ -185,6 +185,20 @@ TEST_F(MixedChangeGLTest, uniformsAreFoundByTheirOwnNames)
     EXPECT_NE(_scene->getSource().find("tint"), std::string::npos);
 }
 
+TEST_F(MixedChangeGLTest, projectsReadTheirOwnMaterialsWhereThatIsAskedFor)
+{
+    Rendering rendering = plain("own", "gl_FrontMaterial.diffuse");
+    rendering.state.given = rendering.state.hasMaterials = true;
+    rendering.state.front.diffuse = {1.0f, 0.4f, 0.2f, 1.0f};
+    _scene->addRendering(rendering);
+    _scene->addRendering(plain("other", "gl_FrontMaterial.diffuse * 0.0"), {100.0, 100.0});
+    setKeys({{0.0, 0.0, 0.0}});
+    EXPECT_FALSE(colors(*draw()).count(0xff6633));
+    _scene->setOwnLighting(true);
+    drawUntil(2.0);
+    EXPECT_EQ(colors(*draw()), std::set<std::uint32_t>{0xff6633});
+}
+
 TEST_F(MixedChangeGLTest, keptProgramsAreLimited)
 {
     for (const char* const name : {"phong", "toon", "gooch", "wood", "xray"})

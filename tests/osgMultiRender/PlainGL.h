@@ -7,6 +7,9 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <gtest/gtest.h>
+
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,29 @@ private:
     EGLDisplay _display = EGL_NO_DISPLAY;
     EGLContext _context = EGL_NO_CONTEXT;
     bool _current = false;
+};
+
+/// A test that draws in a PlainContext: skipped where there is none, failed where one is required.
+class PlainGLTest : public ::testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        if (_context.current())
+        {
+            return;
+        }
+        if (std::getenv("OSGKITS_REQUIRE_GL"))
+        {
+            FAIL() << "no EGL context, and OSGKITS_REQUIRE_GL is set";
+        }
+        GTEST_SKIP() << "no surfaceless EGL context: nothing was drawn";
+    }
+
+    bool hasContext() const { return _context.current(); }
+
+private:
+    PlainContext _context;
 };
 
 /// A program made of texts; `log` holds what compiler and linker said.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Settings of this kit's scenes as one text. Not installed.
+// Settings that are members of a struct, and all of them as one text. Not installed.
 #pragma once
 
 #include <osgMultiRender/Option.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace osgPagedTexture
+namespace osgMultiRender::optionText
 {
 
 template <class Settings, class Value> auto setterOf(Value Settings::*member)
@@ -17,10 +17,10 @@ template <class Settings, class Value> auto setterOf(Value Settings::*member)
 }
 
 template <class Settings, class Number>
-osgMultiRender::Option<Settings> number(const char* name, Number Settings::*member, Number low,
-                                        Number high, const char* help)
+Option<Settings> number(const char* name, Number Settings::*member, Number low, Number high,
+                        const char* help)
 {
-    return osgMultiRender::numberOption<Settings>(name, help, low, high, member, setterOf(member));
+    return numberOption<Settings>(name, help, low, high, member, setterOf(member));
 }
 
 template <class Value> struct OptionWord
@@ -30,15 +30,14 @@ template <class Value> struct OptionWord
 };
 
 template <class Value, class Settings>
-osgMultiRender::Option<Settings> choice(const char* name, Value Settings::*member,
-                                        const std::vector<OptionWord<Value>>& words,
-                                        const char* help)
+Option<Settings> choice(const char* name, Value Settings::*member,
+                        const std::vector<OptionWord<Value>>& words, const char* help)
 {
-    return osgMultiRender::wordOption<Settings>(name, help, words, member, setterOf(member));
+    return wordOption<Settings>(name, help, words, member, setterOf(member));
 }
 
 template <class Settings>
-osgMultiRender::Option<Settings> flag(const char* name, bool Settings::*member, const char* help)
+Option<Settings> flag(const char* name, bool Settings::*member, const char* help)
 {
     return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
 }
@@ -54,12 +53,11 @@ inline std::string quoted(const std::string& value)
 
 /// All that differ from the defaults.
 template <class Settings>
-std::string formatOptions(const std::vector<osgMultiRender::Option<Settings>>& options,
-                          const Settings& settings)
+std::string formatOptions(const std::vector<Option<Settings>>& options, const Settings& settings)
 {
     const Settings defaults;
     std::string all;
-    for (const osgMultiRender::Option<Settings>& option : options)
+    for (const Option<Settings>& option : options)
     {
         const std::string value = option.format(settings);
         if (value != option.format(defaults))
@@ -70,18 +68,18 @@ std::string formatOptions(const std::vector<osgMultiRender::Option<Settings>>& o
 
 /// Returns a line for each that is unknown or wrong, which does not count.
 template <class Settings>
-std::vector<std::string> parseOptions(const std::vector<osgMultiRender::Option<Settings>>& options,
+std::vector<std::string> parseOptions(const std::vector<Option<Settings>>& options,
                                       Settings& settings, const std::string& text)
 {
     osgMultiRender::Settings parsed;
     std::string error;
-    if (!osgMultiRender::parseSettings(text, parsed, error))
+    if (!parseSettings(text, parsed, error))
         return {error};
     std::vector<std::string> errors;
     for (const auto& [name, value] : parsed)
-        if (!osgMultiRender::setOption(options, settings, name, value, error))
+        if (!setOption(options, settings, name, value, error))
             errors.push_back(error);
     return errors;
 }
 
-} // namespace osgPagedTexture
+} // namespace osgMultiRender::optionText
