@@ -143,6 +143,53 @@ TEST(MergePlanTest, samplersInStructsHaveUnitsAndTextures)
               std::string::npos);
 }
 
+TEST(MergePlanTest, whatUniformsTakeIsCountedByStage)
+{
+    const Rendering one =
+        mergeCase("one",
+                  "varying float shade;\nstruct Part { vec3 list[4]; float f; };\n"
+                  "uniform Part parts[2]; uniform vec4 unused[100]; uniform float both;\n"
+                  "void main() { gl_FragColor = vec4(parts[1].list[2] * both * shade, 1.0); }",
+                  "uniform sampler2D heights; uniform float both; varying float shade;\n"
+                  "void main() { shade = texture2D(heights, gl_Vertex.xy).x * both; "
+                  "gl_Position = ftransform(); }");
+    MergeOptions options;
+    const Merged merged = merge({one}, options);
+    EXPECT_EQ(merged.statistics.fragmentUniformComponents, 2 * (4 * 3 + 1) + 1);
+    EXPECT_EQ(merged.statistics.vertexUniformComponents, 1 + 1);
+    EXPECT_EQ(merged.statistics.vertexSamplers, 1);
+    EXPECT_EQ(merged.statistics.fragmentSamplers, 0);
+    const MergedUniform* both = merged.findUniform(0, "both");
+    ASSERT_TRUE(both);
+    EXPECT_TRUE(both->vertex && both->fragment);
+    options.limits.vertexSamplers = 0;
+    EXPECT_NE(errorsOf(merge({one}, options)).find("1 vertex samplers of 0"), std::string::npos);
+}
+
+TEST(MergePlanTest, fieldsThatBecomeKeywordsAreFoundByTheirAuthorsName)
+{
+    const Rendering one =
+        mergeCase("one", Head + "struct Part { float sample; };\nuniform Part part;\n"
+                                "void main() { gl_FragColor = vec4(uv, part.sample, 1.0); }");
+    MergeOptions options;
+    options.version.number = 400;
+    const Merged merged = merge({one}, options);
+    EXPECT_EQ(merged.nameOf(0, "part.sample"), "part_0.sample_0");
+    EXPECT_NE(merged.fragment.find("float sample_0;"), std::string::npos);
+}
+
+TEST(MergePlanTest, bindingsOfSamplersAreTheirUnits)
+{
+    const Rendering one =
+        mergeCase("one", "#version 420 compatibility\nin vec2 uv; out vec4 c;\n"
+                         "layout(binding = 3) uniform sampler2D maps[2];\n"
+                         "void main() { c = texture(maps[0], uv) + texture(maps[1], uv); }");
+    const Merged merged = merge({one});
+    const MergedUniform* maps = merged.findUniform(0, "maps");
+    ASSERT_TRUE(maps);
+    EXPECT_EQ(maps->units, (std::vector<unsigned int>{3, 4}));
+}
+
 TEST(MergePlanTest, attributesKeepTheirBindings)
 {
     const std::string fragment = "varying vec3 t;\nvoid main() { gl_FragColor = vec4(t, 1.0); }";

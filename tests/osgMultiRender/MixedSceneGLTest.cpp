@@ -2,7 +2,10 @@
 // A MixedScene shows the blend of the single pictures.
 #include "osgMultiRender/MixedPictures.h"
 
+#include <osg/Geometry>
 #include <osg/MatrixTransform>
+
+#include <cstring>
 
 using namespace osgMultiRender;
 
@@ -118,6 +121,37 @@ TEST_F(MixedSceneGLTest, aTransparentMixEqualsTheBlendOverWhatLiesBehind)
     EXPECT_GT(truth.compare(*picture, _points, weights).over, 1000) << "nothing shows through";
 }
 
+TEST_F(MixedSceneGLTest, whereATransparentMixIsEmptyLaterSurfacesAreSeen)
+{
+    _model = makeImageQuad(*_image);
+    add("textured", {0.0, 0.0, 0.2, 0.8});
+    setKeys({{0.0, 0.0, 0.0}});
+    const osg::ref_ptr<osg::Image> opaque = osg::clone(draw().get(), osg::CopyOp::DEEP_COPY_ALL);
+    _scene->setTransparent(true);
+    const osg::ref_ptr<osg::Geometry> floor =
+        osg::createTexturedQuadGeometry({-9, -9, -3}, {18, 0, 0}, {0, 18, 0});
+    const osg::ref_ptr<osg::Vec4Array> red = new osg::Vec4Array(1, new osg::Vec4(1, 0, 0, 1));
+    floor->setColorArray(red, osg::Array::BIND_OVERALL);
+    floor->getOrCreateStateSet()->setMode(GL_LIGHTING, osg::StateAttribute::OFF);
+    floor->getStateSet()->setRenderBinDetails(20, "RenderBin"); // after the mix
+    const osg::ref_ptr<osg::Group> both = new osg::Group;
+    both->addChild(_scene);
+    both->addChild(floor);
+    const osg::ref_ptr<osg::Image> picture = _viewer.renderFloat(both, _camera, Size, Size, 1);
+    ASSERT_TRUE(picture);
+    const osg::Vec4 clear = support::HeadlessSettings().clearColor;
+    int empty = 0, seen = 0;
+    for (unsigned int y = 0; y < unsigned(Size); ++y)
+        for (unsigned int x = 0; x < unsigned(Size); ++x)
+            if (opaque->getColor(x, y) != clear && opaque->getColor(x, y).a() == 0.0f)
+            {
+                ++empty;
+                seen += picture->getColor(x, y).r() == 1.0f;
+            }
+    EXPECT_GT(empty, 100);
+    EXPECT_EQ(seen, empty);
+}
+
 TEST_F(MixedSceneGLTest, whatIsMissingShowsWhatLiesBehindWhereItIsTransparent)
 {
     _model = makeImageQuad(*_image); // one layer, so that only the background is behind
@@ -145,4 +179,7 @@ TEST_F(MixedSceneGLTest, whatIsMissingShowsWhatLiesBehindWhereItIsTransparent)
     EXPECT_GT(through, 100);
     EXPECT_GT(mixed, 100);
     EXPECT_LE(worst, 1.0 / 255.0);
+    _scene->setTransparent(false);
+    const osg::ref_ptr<osg::Image> again = draw();
+    EXPECT_EQ(std::memcmp(again->data(), opaque->data(), opaque->getTotalSizeInBytes()), 0);
 }
