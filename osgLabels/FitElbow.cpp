@@ -183,14 +183,43 @@ glm::dvec2 arcOf(const Ring& ring, const glm::dmat3& frame, const std::vector<gl
     return {start, glm::two_pi<double>() - widest};
 }
 
-/// Whether every facet lies on the tube in steps that are small enough, or in a flat end.
+/// Of a point around the ring from where the arc starts, -0.1 to 2 pi - 0.1.
+double angleOf(const Ring& ring, const glm::dmat3& frame, double start, const glm::dvec3& point)
+{
+    const glm::dvec3 p = (point - ring.center) * frame;
+    const double angle = std::atan2(p.y, p.x) - start;
+    return angle - glm::two_pi<double>() * std::floor((angle + 0.1) / glm::two_pi<double>());
+}
+
+/// Whether facets go on from the end of the arc to its start: then it is a whole turn.
+bool isClosed(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, const glm::dvec2& arc)
+{
+    if (arc.y < glm::pi<double>())
+        return false;
+    return std::any_of(mesh.facets.begin(), mesh.facets.end(),
+                       [&](const FitMesh::Facet& facet)
+                       {
+                           bool hasStart = false, hasEnd = false;
+                           for (const auto corner : facet.corners)
+                           {
+                               const double angle =
+                                   angleOf(ring, frame, arc.x, mesh.points[corner]);
+                               hasStart = hasStart || std::abs(angle) < 1e-3;
+                               hasEnd = hasEnd || std::abs(angle - arc.y) < 1e-3;
+                           }
+                           return hasStart && hasEnd;
+                       });
+}
+
+/// Whether every facet lies on the tube in steps that are small enough, in a flat end, or across
+/// the tube within it.
 bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, const glm::dvec2& arc)
 {
     const double tolerance = 4.0 * mesh.noise + Tolerance * ring.tube;
     double area = 0.0;
     for (const FitMesh::Facet& facet : mesh.facets)
     {
-        bool onTube = true, atStart = true, atEnd = true;
+        bool onTube = true, atStart = true, atEnd = true, isWithin = true;
         glm::dvec2 way[3];
         glm::dvec3 outward[3];
         for (int k = 0; k != 3; ++k)
@@ -200,13 +229,13 @@ bool isTube(const FitMesh& mesh, const Ring& ring, const glm::dmat3& frame, cons
             onTube = onTube && std::abs(at.across - ring.tube) <= tolerance;
             way[k] = {at.rho - ring.radius, at.z};
             outward[k] = at.outward;
-            const glm::dvec3 p = (point - ring.center) * frame;
-            double angle = std::atan2(p.y, p.x) - arc.x;
-            angle -= glm::two_pi<double>() * std::floor((angle + 0.1) / glm::two_pi<double>());
+            const double angle = angleOf(ring, frame, arc.x, point);
+            isWithin = isWithin && at.across <= ring.tube + tolerance &&
+                       glm::distance(at.outward, outward[0]) * at.rho <= tolerance;
             atStart = atStart && std::abs(angle) * at.rho <= tolerance;
             atEnd = atEnd && std::abs(angle - arc.y) * at.rho <= tolerance;
         }
-        if (atStart || atEnd)
+        if (atStart || atEnd || isWithin)
             continue;
         if (!onTube)
             return false;
@@ -285,7 +314,9 @@ std::optional<FittedShape> fitAround(const FitMesh& mesh, const std::vector<glm:
             return std::nullopt;
     }
     glm::dmat3 frame = frameAround(ring->axis);
-    const glm::dvec2 arc = arcOf(*ring, frame, mesh.points);
+    glm::dvec2 arc = arcOf(*ring, frame, mesh.points);
+    if (isClosed(mesh, *ring, frame, arc))
+        arc.y = glm::two_pi<double>();
     if (arc.y < 0.02 || !isTube(mesh, *ring, frame, arc))
         return std::nullopt;
     const glm::dvec3 x = std::cos(arc.x) * frame[0] + std::sin(arc.x) * frame[1];
