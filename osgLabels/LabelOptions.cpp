@@ -4,7 +4,7 @@
 #include <osgLabels/MapClasses.h>
 #include <osgLabels/StyleText.h>
 
-#include <osgMultiRender/PseudoLoader.h>
+#include <osgMultiRender/OptionText.h>
 
 #include <regex>
 
@@ -14,36 +14,9 @@ namespace osgLabels
 namespace
 {
 
-template <class Value> auto setterOf(Value LabelSettings::*member)
-{
-    return [member](LabelSettings& settings, const Value& value) { settings.*member = value; };
-}
-
-template <class Number>
-LabelOption number(const char* name, Number LabelSettings::*member, Number low, Number high,
-                   const char* help)
-{
-    return osgMultiRender::numberOption<LabelSettings>(name, help, low, high, member,
-                                                       setterOf(member));
-}
-
-template <class Value> struct Word
-{
-    const char* name;
-    Value value;
-};
-
-template <class Value>
-LabelOption choice(const char* name, Value LabelSettings::*member,
-                   const std::vector<Word<Value>>& words, const char* help)
-{
-    return osgMultiRender::wordOption<LabelSettings>(name, help, words, member, setterOf(member));
-}
-
-LabelOption flag(const char* name, bool LabelSettings::*member, const char* help)
-{
-    return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
-}
+using osgMultiRender::choice;
+using osgMultiRender::flag;
+using osgMultiRender::number;
 
 /// Of the style of all objects without one of their own.
 LabelOption defaultStyle(const osgMultiRender::Option<LabelStyle>& part)
@@ -121,15 +94,6 @@ LabelOption text(const char* name, std::string LabelSettings::*member, const cha
                 return {};
             },
             [=](const LabelSettings& settings) { return settings.*member; }};
-}
-
-/// As parseSettings() takes it for one word.
-std::string quoted(const std::string& value)
-{
-    std::string text = "'";
-    for (const char c : value)
-        text += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
-    return text + "'";
 }
 
 } // namespace
@@ -212,29 +176,12 @@ bool setLabelOption(LabelSettings& settings, const std::string& name, const std:
 
 std::string formatLabelOptions(const LabelSettings& settings)
 {
-    const LabelSettings defaults;
-    std::string all;
-    for (const LabelOption& option : labelOptions())
-    {
-        const std::string value = option.format(settings);
-        if (value == option.format(defaults))
-            continue;
-        all += (all.empty() ? "" : ",") + option.name + "=" + quoted(value);
-    }
-    return all;
+    return osgMultiRender::formatOptions(labelOptions(), settings);
 }
 
 std::vector<std::string> parseLabelOptions(LabelSettings& settings, const std::string& text)
 {
-    osgMultiRender::Settings parsed;
-    std::string error;
-    if (!osgMultiRender::parseSettings(text, parsed, error))
-        return {error};
-    std::vector<std::string> errors;
-    for (const auto& [name, value] : parsed)
-        if (!setLabelOption(settings, name, value, error))
-            errors.push_back(error);
-    return errors;
+    return osgMultiRender::parseOptions(labelOptions(), settings, text);
 }
 
 } // namespace osgLabels

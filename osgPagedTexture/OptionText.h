@@ -1,87 +1,43 @@
 // SPDX-License-Identifier: MIT
-// Settings of this kit's scenes as one text. Not installed.
+// Rows of the tables of this kit's settings. Not installed.
 #pragma once
 
-#include <osgMultiRender/Option.h>
-#include <osgMultiRender/PseudoLoader.h>
+#include <osgPagedTexture/BlockEncoder.h>
+#include <osgPagedTexture/PagedSettings.h>
 
-#include <string>
+#include <osgMultiRender/OptionText.h>
+
 #include <vector>
 
 namespace osgPagedTexture
 {
 
-template <class Settings, class Value> auto setterOf(Value Settings::*member)
+using osgMultiRender::choice;
+using osgMultiRender::flag;
+using osgMultiRender::number;
+
+template <class Settings> osgMultiRender::Option<Settings> threadsOption()
 {
-    return [member](Settings& settings, const Value& value) { settings.*member = value; };
+    return number("threads", &Settings::threads, 0u, 256u,
+                  "Threads that read and encode; 0: one less than the machine has");
 }
 
-template <class Settings, class Number>
-osgMultiRender::Option<Settings> number(const char* name, Number Settings::*member, Number low,
-                                        Number high, const char* help)
+template <class Settings> osgMultiRender::Option<Settings> compressionOption(const char* help)
 {
-    return osgMultiRender::numberOption<Settings>(name, help, low, high, member, setterOf(member));
+    return choice<Compression>(
+        "compression", &Settings::compression,
+        {{"blocks", Compression::Blocks}, {"best", Compression::Best}, {"none", Compression::None}},
+        help);
 }
 
-template <class Value> struct OptionWord
+template <class Settings> osgMultiRender::Option<Settings> qualityOption()
 {
-    const char* name;
-    Value value;
-};
-
-template <class Value, class Settings>
-osgMultiRender::Option<Settings> choice(const char* name, Value Settings::*member,
-                                        const std::vector<OptionWord<Value>>& words,
-                                        const char* help)
-{
-    return osgMultiRender::wordOption<Settings>(name, help, words, member, setterOf(member));
-}
-
-template <class Settings>
-osgMultiRender::Option<Settings> flag(const char* name, bool Settings::*member, const char* help)
-{
-    return choice<bool>(name, member, {{"on", true}, {"off", false}}, help);
-}
-
-/// As parseSettings() takes it for one word.
-inline std::string quoted(const std::string& value)
-{
-    std::string text = "'";
-    for (const char c : value)
-        text += c == '\'' ? std::string("'\"'\"'") : std::string(1, c);
-    return text + "'";
-}
-
-/// All that differ from the defaults.
-template <class Settings>
-std::string formatOptions(const std::vector<osgMultiRender::Option<Settings>>& options,
-                          const Settings& settings)
-{
-    const Settings defaults;
-    std::string all;
-    for (const osgMultiRender::Option<Settings>& option : options)
-    {
-        const std::string value = option.format(settings);
-        if (value != option.format(defaults))
-            all += (all.empty() ? "" : ",") + option.name + "=" + quoted(value);
-    }
-    return all;
-}
-
-/// Returns a line for each that is unknown or wrong, which does not count.
-template <class Settings>
-std::vector<std::string> parseOptions(const std::vector<osgMultiRender::Option<Settings>>& options,
-                                      Settings& settings, const std::string& text)
-{
-    osgMultiRender::Settings parsed;
-    std::string error;
-    if (!osgMultiRender::parseSettings(text, parsed, error))
-        return {error};
-    std::vector<std::string> errors;
-    for (const auto& [name, value] : parsed)
-        if (!osgMultiRender::setOption(options, settings, name, value, error))
-            errors.push_back(error);
-    return errors;
+    return choice<EncodeQuality>("quality", &Settings::quality,
+                                 {{"fast", EncodeQuality::Fast},
+                                  {"normal", EncodeQuality::Normal},
+                                  {"fine", EncodeQuality::Fine},
+                                  {"best", EncodeQuality::Best}},
+                                 "How much time compression takes for a better picture");
 }
 
 } // namespace osgPagedTexture
