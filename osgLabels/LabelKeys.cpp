@@ -4,7 +4,8 @@
 #include <osgLabels/LabelOptions.h>
 #include <osgLabels/LabelScene.h>
 
-#include <osg/ApplicationUsage>
+#include <osgMultiRender/KeyEvents.h>
+
 #include <osg/Notify>
 #include <osg/View>
 #include <osgGA/EventVisitor>
@@ -19,13 +20,7 @@ namespace
 
 using KeyEvent = osgGA::GUIEventAdapter;
 
-[[maybe_unused]] const bool isInUsage = []
-{
-    for (const LabelKey& key : labelKeys())
-        osg::ApplicationUsage::instance()->addKeyboardMouseBinding(std::string(1, key.key),
-                                                                   key.help);
-    return true;
-}();
+[[maybe_unused]] const bool isInUsage = osgMultiRender::addToUsage(labelKeys());
 
 void printPicked(LabelScene& scene)
 {
@@ -104,20 +99,9 @@ const std::vector<LabelKey>& labelKeys()
 void answerKeys(LabelScene& scene, osgGA::EventVisitor& visitor)
 {
     printPicked(scene);
-    for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
-    {
-        KeyEvent* event = each->asGUIEventAdapter();
-        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
-            continue;
-        for (const LabelKey& key : labelKeys())
-            if (event->getKey() == key.key)
-            {
-                answer(key.key, scene, *event, visitor);
-                event->setHandled(true);
-                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
-                    viewer->requestRedraw();
-            }
-    }
+    osgMultiRender::answerPressed(visitor, labelKeys(),
+                                  [&](char key, const KeyEvent& event)
+                                  { answer(key, scene, event, visitor); });
 }
 
 } // namespace osgLabels

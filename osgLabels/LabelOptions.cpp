@@ -11,10 +11,12 @@
 namespace osgLabels
 {
 
-using namespace osgMultiRender::optionText;
-
 namespace
 {
+
+using osgMultiRender::choice;
+using osgMultiRender::flag;
+using osgMultiRender::number;
 
 /// Of the style of all objects without one of their own.
 LabelOption defaultStyle(const osgMultiRender::Option<LabelStyle>& part)
@@ -174,12 +176,12 @@ bool setLabelOption(LabelSettings& settings, const std::string& name, const std:
 
 std::string formatLabelOptions(const LabelSettings& settings)
 {
-    return formatOptions(labelOptions(), settings);
+    return osgMultiRender::formatOptions(labelOptions(), settings);
 }
 
 std::vector<std::string> parseLabelOptions(LabelSettings& settings, const std::string& text)
 {
-    return parseOptions(labelOptions(), settings, text);
+    return osgMultiRender::parseOptions(labelOptions(), settings, text);
 }
 
 } // namespace osgLabels

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Settings that are members of a struct, and all of them as one text. Not installed.
+// The rows of a table of settings that are members of one struct, and all of them as one text. Not
+// installed.
 #pragma once
 
 #include <osgMultiRender/Option.h>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace osgMultiRender::optionText
+namespace osgMultiRender
 {
 
 template <class Settings, class Value> auto setterOf(Value Settings::*member)
@@ -77,9 +78,9 @@ std::vector<std::string> parseOptions(const std::vector<Option<Settings>>& optio
         return {error};
     std::vector<std::string> errors;
     for (const auto& [name, value] : parsed)
-        if (!setOption(options, settings, name, value, error))
+        if (!osgMultiRender::setOption(options, settings, name, value, error))
             errors.push_back(error);
     return errors;
 }
 
-} // namespace osgMultiRender::optionText
+} // namespace osgMultiRender

@@ -34,6 +34,16 @@ void ContextTextures::flush()
     _buffers.clear();
 }
 
+StorageThread* ContextTextures::getStorageThread()
+{
+    if (!_hasTriedStorage)
+        if (std::unique_ptr<SharedContext> context = SharedContext::create())
+            _storage = std::make_unique<StorageThread>(std::move(context),
+                                                       osg::GLExtensions::Get(_contextID, true));
+    _hasTriedStorage = true;
+    return _storage.get();
+}
+
 void ContextTextures::deleteAllGLObjects()
 {
     flush();
@@ -50,6 +60,8 @@ void ContextTextures::discardAllGLObjects()
 
 void ContextTextures::invalidate()
 {
+    _storage.reset();
+    _hasTriedStorage = false;
     *_validity = false;
     _validity = std::make_shared<std::atomic<bool>>(true);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/StorageThread.h>
+
 #include <osg/ContextData>
 #include <osg/GLObjects>
 
@@ -28,6 +30,10 @@ public:
     /// In the draw thread.
     void flush();
 
+    /// For what takes too long in a frame: in the draw thread, until the names become void. Null
+    /// where no other context can share textures with this one.
+    StorageThread* getStorageThread();
+
     void flushDeletedGLObjects(double, double&) override { flush(); }
     void flushAllDeletedGLObjects() override { flush(); }
     void deleteAllGLObjects() override;
@@ -43,6 +49,8 @@ private:
     std::vector<GLuint> _textures;
     std::vector<GLuint> _buffers;
     std::shared_ptr<std::atomic<bool>> _validity = std::make_shared<std::atomic<bool>>(true);
+    std::unique_ptr<StorageThread> _storage;
+    bool _hasTriedStorage = false;
 };
 
 } // namespace osgPagedTexture

@@ -3,9 +3,9 @@
 
 #include <osgPagedTexture/PagedScene.h>
 
-#include <osg/ApplicationUsage>
+#include <osgMultiRender/KeyEvents.h>
+
 #include <osg/Notify>
-#include <osgGA/EventVisitor>
 
 #include <string>
 
@@ -15,15 +15,7 @@ namespace osgPagedTexture
 namespace
 {
 
-using KeyEvent = osgGA::GUIEventAdapter;
-
-[[maybe_unused]] const bool isInUsage = []
-{
-    for (const PagedKey& key : pagedKeys())
-        osg::ApplicationUsage::instance()->addKeyboardMouseBinding(std::string(1, key.key),
-                                                                   key.help);
-    return true;
-}();
+[[maybe_unused]] const bool isInUsage = osgMultiRender::addToUsage(pagedKeys());
 
 void answer(char key, PagedScene& scene)
 {
@@ -63,20 +55,8 @@ const std::vector<PagedKey>& pagedKeys()
 
 void answerKeys(PagedScene& scene, osgGA::EventVisitor& visitor)
 {
-    for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
-    {
-        KeyEvent* event = each->asGUIEventAdapter();
-        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
-            continue;
-        for (const PagedKey& key : pagedKeys())
-            if (event->getKey() == key.key)
-            {
-                answer(key.key, scene);
-                event->setHandled(true);
-                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
-                    viewer->requestRedraw();
-            }
-    }
+    osgMultiRender::answerPressed(
+        visitor, pagedKeys(), [&](char key, const osgGA::GUIEventAdapter&) { answer(key, scene); });
 }
 
 } // namespace osgPagedTexture

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/PagedOptions.h>
 
-#include <osgMultiRender/OptionText.h>
+#include <osgPagedTexture/OptionText.h>
 
 namespace osgPagedTexture
 {
-
-using namespace osgMultiRender::optionText;
 
 namespace
 {
@@ -39,20 +37,10 @@ const std::vector<PagedOption>& pagedOptions()
         number("preview", &S::previewSide, 1u, 1024u, "Texels of a side of what is shown first"),
         number("prefetch", &S::prefetchSeconds, 0.0, 60.0,
                "Seconds that the motion of the eye is looked ahead"),
-        number("threads", &S::threads, 0u, 256u,
-               "Threads that read and encode; 0: one less than the machine has"),
-        choice<Compression>("compression", &S::compression,
-                            {{"blocks", Compression::Blocks},
-                             {"best", Compression::Best},
-                             {"none", Compression::None}},
-                            "Texels on the GPU: BC1, BC3, BC4 and BC5; BC7 where GL has it; not "
-                            "compressed"),
-        choice<EncodeQuality>("quality", &S::quality,
-                              {{"fast", EncodeQuality::Fast},
-                               {"normal", EncodeQuality::Normal},
-                               {"fine", EncodeQuality::Fine},
-                               {"best", EncodeQuality::Best}},
-                              "How much time compression takes for a better picture"),
+        threadsOption<S>(),
+        compressionOption<S>("Texels on the GPU: BC1, BC3, BC4 and BC5; BC7 where GL has it; not "
+                             "compressed"),
+        qualityOption<S>(),
         cacheOption(),
         number("cachesize", &S::cacheMegabytes, 0.0, 1048576.0 * 64.0, "MiB of that folder"),
         flag("wait", &S::wait,
@@ -77,12 +65,12 @@ bool setPagedOption(PagedSettings& settings, const std::string& name, const std:
 
 std::string formatPagedOptions(const PagedSettings& settings)
 {
-    return formatOptions(pagedOptions(), settings);
+    return osgMultiRender::formatOptions(pagedOptions(), settings);
 }
 
 std::vector<std::string> parsePagedOptions(PagedSettings& settings, const std::string& text)
 {
-    return parseOptions(pagedOptions(), settings, text);
+    return osgMultiRender::parseOptions(pagedOptions(), settings, text);
 }
 
 } // namespace osgPagedTexture

@@ -46,6 +46,7 @@ unsigned int Pager::add(const PagedImage& image)
     _entries.emplace_back();
     _entries.back().image = image;
     _entries.back().state->translucent = image.translucent;
+    _hasNew = true;
     for (auto& each : _contexts)
     {
         each.second.resident.push_back(UploadEvent::Gone);
@@ -62,6 +63,8 @@ void Pager::remove(unsigned int texture)
         return;
     _byFile.erase({entry.image.file, entry.image.use});
     cancel(texture);
+    countWhole(entry);
+    wake(texture);
     if (entry.isWatched)
         _watch->remove(entry.image.file);
     for (auto& each : _contexts)
@@ -77,6 +80,7 @@ void Pager::report(const std::vector<PagedDemand>& demands, unsigned int frame)
         Entry& entry = _entries[demand.texture];
         entry.pixels = std::max(entry.pixels, demand.pixels);
         entry.soonPixels = std::max(entry.soonPixels, demand.soonPixels);
+        wake(demand.texture);
         if (demand.pixels > 0.0)
             entry.lastUsed = frame;
     }
@@ -89,12 +93,7 @@ void Pager::advance(unsigned int frame)
         return;
     _frame = frame;
     advanceLocked();
-    // What views of this frame see is the next one's need.
-    for (Entry& entry : _entries)
-    {
-        entry.soonBefore = entry.soonPixels;
-        entry.pixels = entry.soonPixels = 0.0;
-    }
+    rest();
 }
 
 void Pager::advanceLocked()
@@ -108,11 +107,12 @@ void Pager::advanceLocked()
     takeChanges();
     if (_settings.freeze)
         return;
+    meetAwake();
     plan();
     _changing = 0;
     _asked = 0;
-    for (unsigned int i = 0; i < _entries.size(); ++i)
-        moveTo(i);
+    for (const unsigned int texture : _active)
+        moveTo(texture);
     _planMilliseconds = threadMilliseconds() - start;
 }
 
@@ -157,8 +157,13 @@ bool Pager::learnAbilities()
     }
     _abilities = all;
     for (Entry& entry : _entries)
+    {
+        if (!_hasNew)
+            break;
         if (!entry.bytes)
             setFormat(entry);
+    }
+    _hasNew = false;
     return true;
 }
 
@@ -175,6 +180,7 @@ void Pager::setFormat(Entry& entry)
     entry.finest = 0;
     while (levelSide(std::max(image.width, image.height), entry.finest) > _abilities.maxSide)
         ++entry.finest;
+    countWhole(entry);
 }
 
 void Pager::takeEvents()
@@ -182,48 +188,20 @@ void Pager::takeEvents()
     for (auto& each : _contexts)
         for (const UploadEvent& event : each.second.queue->takeEvents())
         {
+            wake(event.texture);
             each.second.queued[event.texture] = None;
             if (event.isRefused)
+            {
                 _entries[event.texture].finest =
                     std::min(event.level + 1, int(_entries[event.texture].bytes->size()) - 1);
+                countWhole(_entries[event.texture]);
+            }
             else
             {
                 each.second.resident[event.texture] = event.level;
                 _entries[event.texture].isOld = false;
             }
         }
-}
-
-void Pager::plan()
-{
-    _wishes.resize(_entries.size());
-    for (std::size_t i = 0; i < _entries.size(); ++i)
-    {
-        Entry& entry = _entries[i];
-        ResidencyWish& wish = _wishes[i];
-        wish = {};
-        if (entry.users == 0 || entry.state->failed || !entry.bytes)
-            continue;
-        const TexelTexture texture{entry.image.width, entry.image.height, entry.image.anisotropy,
-                                   entry.image.lodBias};
-        // Levels count from the finest one that may be there.
-        const auto wanted = [&](double pixels)
-        {
-            return pixels > 0.0 ? std::max(0.0, neededLevel(texture, pixels) - entry.finest)
-                                : ResidencyWish::None;
-        };
-        wish.bytes = entry.bytes->data() + entry.finest;
-        wish.levels = int(entry.bytes->size()) - entry.finest;
-        entry.need = wanted(entry.pixels);
-        wish.need = entry.need;
-        wish.soon = wanted(std::max(entry.soonPixels, entry.soonBefore));
-        const int there = coarsest(unsigned(i));
-        wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
-        wish.lastUsed = entry.lastUsed;
-    }
-    _plan = planResidency(_wishes, _settings.gpuBytes());
-    for (std::size_t i = 0; i < _entries.size(); ++i)
-        _entries[i].target = _plan.first[i] < 0 ? -1 : _plan.first[i] + _entries[i].finest;
 }
 
 /// The finest level that all contexts have; Gone where one has nothing.

@@ -144,6 +144,8 @@ private:
         int requested = -1;
         double urgency = 0.0; ///< The request's priority.
         unsigned int users = 1;
+        std::uint64_t wholeBytes = 0; ///< Its share of `_wholeBytes`.
+        bool isActive = false;        ///< It is one of `_active` or `_awake`.
         bool isWatched = false;
         bool isOld = false; ///< What contexts show is of a file that has changed.
         std::shared_ptr<PagedState> state = std::make_shared<PagedState>();
@@ -166,6 +168,11 @@ private:
     void setFormat(Entry& entry);
     void takeResults();
     void accept(const ChainResult& result);
+    void wake(unsigned int texture);
+    void meetAwake();
+    void rest();
+    bool isIdle(unsigned int texture) const;
+    void countWhole(Entry& entry);
     void plan();
     void moveTo(unsigned int texture);
     bool orderIn(Context& context, unsigned int texture, int target);
@@ -196,7 +203,11 @@ private:
     std::map<std::tuple<int, int, BlockFormat>, std::vector<std::uint64_t>> _sizes;
     std::unique_ptr<ChainLoader> _loader;
     std::unique_ptr<FileWatch> _watch;
-    std::vector<ResidencyWish> _wishes;
+    std::vector<unsigned int> _active;  ///< Textures that something is to be decided of, in order.
+    std::vector<unsigned int> _awake;   ///< Those that have come to be so, in any order.
+    bool _hasNew = false;               ///< Textures whose format is not known.
+    std::uint64_t _wholeBytes = 0;      ///< Of all textures at full size.
+    std::vector<ResidencyWish> _wishes; ///< Of the active ones.
     ResidencyPlan _plan;
     unsigned int _frame = ~0u;
     unsigned int _waited = ~0u;

@@ -36,8 +36,9 @@ void Pager::loadAgain(unsigned int texture, const ImageInfo& info)
     entry.image.channels = info.channels;
     entry.image.translucent = info.translucent;
     cancel(texture);
-    setFormat(entry);
     entry.state->failed = false;
+    setFormat(entry);
+    wake(texture);
     entry.state->translucent = entry.image.translucent;
     entry.isOld = true;
     for (auto& each : _contexts)
@@ -85,6 +86,7 @@ void Pager::accept(const ChainResult& result)
 void Pager::give(const ChainResult& result, unsigned int texture)
 {
     Entry& entry = _entries[texture];
+    wake(texture);
     if (result.state != ChainResult::State::Preview)
     {
         entry.request = 0;
@@ -101,6 +103,7 @@ void Pager::give(const ChainResult& result, unsigned int texture)
         entry.state->failed = true;
     else
         entry.finest = there;
+    countWhole(entry);
 }
 
 void Pager::pushToAll(unsigned int texture, const std::shared_ptr<const MipChain>& chain)

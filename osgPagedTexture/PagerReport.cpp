@@ -45,6 +45,7 @@ PagerStatistics Pager::getStatistics() const
         result.missingTexels +=
             std::max(0.0, needed - (there == UploadEvent::Gone ? 0.0 : texels(there)));
     }
+    result.considered = _active.size();
     result.changing = _changing;
     result.isWhole = _plan.isWhole;
     result.bias = _plan.bias;

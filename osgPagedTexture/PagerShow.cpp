@@ -60,13 +60,14 @@ Pager::Shown Pager::getShown(unsigned int texture, const PagedState& paged, osg:
     queue->begin(state);
     const UploadQueue::Texture* found = queue->find(texture);
     if (paged.failed && !found)
-        return {queue->faultName(state)};
+        return {queue->getPlain().faultName(state)};
     if (_showsLevels)
-        return {queue->plainName(
-            state, found ? LevelColors[std::min(found->level, LevelColorCount - 1)] : 0x000000FF)};
+        return {queue->getPlain().nameOf(
+            state,
+            found ? LevelColors[std::min(found->size.level, LevelColorCount - 1)] : 0x000000FF)};
     if (found)
-        return {found->name, found->format};
-    return {queue->plainName(state, paged.translucent ? Translucent : Opaque)};
+        return {found->name, found->size.format};
+    return {queue->getPlain().nameOf(state, paged.translucent ? Translucent : Opaque)};
 }
 
 bool Pager::upload(osg::State& state)

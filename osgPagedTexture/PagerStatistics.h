@@ -17,6 +17,7 @@ struct UploadStatistics
     std::uint64_t uploaded = 0;     ///< So far.
     std::uint64_t lastUploaded = 0; ///< In the last frame.
     double lastMilliseconds = 0.0;  ///< CPU time of the last frame's uploads.
+    std::size_t madeAside = 0;      ///< Textures whose memory was made outside of the frame.
     std::size_t waiting = 0;        ///< Jobs.
     std::uint64_t waitingBytes = 0; ///< Of their chains.
 };
@@ -28,6 +29,7 @@ struct PagerStatistics
     std::size_t inView = 0;
     std::size_t resident = 0; ///< In the first context.
     std::size_t failed = 0;
+    std::size_t considered = 0; ///< In the last frame: in view, about to be, there, on their way.
     std::size_t changing = 0;   ///< That are not what they should be.
     bool isWhole = false;       ///< All fit at full size, nothing is paged.
     double bias = 0.0;          ///< See ResidencyPlan.

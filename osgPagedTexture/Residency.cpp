@@ -38,8 +38,8 @@ int levelOf(const ResidencyWish& wish, double bias)
 class Division
 {
 public:
-    Division(const std::vector<ResidencyWish>& wishes, std::uint64_t budget)
-        : _wishes(wishes), _budget(budget)
+    Division(const std::vector<ResidencyWish>& wishes, std::uint64_t budget, std::uint64_t others)
+        : _wishes(wishes), _budget(budget), _others(others)
     {
         _plan.first.assign(wishes.size(), -1);
         for (std::size_t i = 0; i < wishes.size(); ++i)
@@ -59,7 +59,7 @@ public:
 private:
     bool fitsWhole() const
     {
-        std::uint64_t bytes = 0;
+        std::uint64_t bytes = _others;
         for (const ResidencyWish& wish : _wishes)
             bytes += wish.levels > 0 ? wish.bytes[0] : 0;
         return bytes <= _budget;
@@ -171,16 +171,17 @@ private:
     }
 
     const std::vector<ResidencyWish>& _wishes;
-    const std::uint64_t _budget;
+    const std::uint64_t _budget, _others;
     std::vector<std::size_t> _inView;
     ResidencyPlan _plan;
 };
 
 } // namespace
 
-ResidencyPlan planResidency(const std::vector<ResidencyWish>& wishes, std::uint64_t budget)
+ResidencyPlan planResidency(const std::vector<ResidencyWish>& wishes, std::uint64_t budget,
+                            std::uint64_t others)
 {
-    return Division(wishes, budget).divide();
+    return Division(wishes, budget, others).divide();
 }
 
 } // namespace osgPagedTexture

@@ -36,8 +36,10 @@ struct ResidencyPlan
 /// Divides `budget` bytes. What is in view comes first, coarser by the same number of levels for
 /// all where it does not fit, so that the least needed goes first; then what will be in view; then
 /// what is there already, last used first. A texture that is there keeps a level that is just not
-/// needed, so that nothing goes back and forth. The same wishes give the same plan.
+/// needed, so that nothing goes back and forth. The same wishes give the same plan. `others`: bytes
+/// of textures that wish nothing and have nothing; all it does is to keep the plan from being
+/// whole.
 OSGPAGEDTEXTURE_EXPORT ResidencyPlan planResidency(const std::vector<ResidencyWish>& wishes,
-                                                   std::uint64_t budget);
+                                                   std::uint64_t budget, std::uint64_t others = 0);
 
 } // namespace osgPagedTexture

@@ -3,6 +3,8 @@
 
 #include <osgPagedTexture/MipChain.h>
 #include <osgPagedTexture/PagerStatistics.h>
+#include <osgPagedTexture/PlainTextures.h>
+#include <osgPagedTexture/TextureStorage.h>
 
 #include <osg/State>
 
@@ -56,9 +58,10 @@ struct UploadLimits
 /// The textures of one context and what they are to become.
 ///
 /// A texture that changes is made anew at its other size, since drivers give no memory back for
-/// levels that are not used; it is filled over several frames through a pixel buffer, in rows of
-/// blocks, and takes the place of the one before when it is complete. run() and nameOf() belong to
-/// the draw thread, all else to any.
+/// levels that are not used; it is filled over several frames in rows of blocks, through a pixel
+/// buffer or from the finer one, and takes the place of the one before when it is complete. Memory
+/// that would take too long in a frame is made in a StorageThread. What has an osg::State, and
+/// find(), belong to the draw thread, all else to any.
 class UploadQueue
 {
 public:
@@ -86,39 +89,50 @@ public:
     struct Texture
     {
         GLuint name = 0;
-        int level = UploadEvent::Gone;
-        BlockFormat format = BlockFormat::RGBA8;
-        int width = 0; ///< Of level 0.
-        int height = 0;
-        std::uint64_t bytes() const { return name ? chainBytes(format, width, height, level) : 0; }
+        TextureSize size;
     };
     /// Null while nothing of it is there.
     const Texture* find(unsigned int texture) const;
 
-    /// A texture of one colour, RGBA8, or the picture for what can't be read.
-    GLuint plainName(osg::State& state, std::uint32_t rgba);
-    GLuint faultName(osg::State& state);
+    PlainTextures& getPlain() { return _plain; }
 
 private:
     struct Build
     {
         UploadJob job;
         Texture texture;
-        std::size_t index = 0; ///< Of the level in the chain that goes on.
-        int row = 0;           ///< Of blocks.
+        std::uint64_t ticket = 0; ///< Not 0: a StorageThread makes its memory.
+        int level = 0;            ///< That goes on.
+        int row = 0;              ///< Of blocks.
+    };
+
+    /// What the next step of a frame may take.
+    struct Share
+    {
+        const UploadLimits& limits;
+        std::uint64_t piece = 0; ///< Bytes.
+        double left = 0.0;       ///< Milliseconds.
+        bool isFirst = true;     ///< Nothing has been made in this frame.
     };
 
     void reset();
-    void takeOrders(double milliseconds);
+    void takeOrders();
+    void take(UploadJob job);
+    bool step(const Share& share);
+    bool start(std::uint64_t limit);
+    bool makeMemory(const Share& share);
+    void learnCost(double milliseconds);
+    void refuse();
+    void cancelBuild();
+    bool fill(std::uint64_t piece);
+    void uploadRows(int rows);
+    void copyRows(int rows);
+    void finish();
     void evictNow(unsigned int texture);
-    bool coarsen(const UploadJob& job);
-    bool start(const UploadJob& job, const UploadLimits& limits);
-    bool allocate(Texture& texture) const;
-    bool goOn(std::uint64_t piece);
-    void uploadRows(const std::vector<std::uint8_t>& bytes, int level, int first, int rows);
-    void finish(const Texture& texture, unsigned int id);
+    void doom(const Texture& texture);
+    void deleteOne();
     void tell(unsigned int texture, int level, bool refused = false);
-    void count();
+    void publish(std::uint64_t uploadedBefore, double milliseconds);
 
     const unsigned int _contextID;
     mutable std::mutex _mutex; ///< Guards what other threads see.
@@ -134,11 +148,14 @@ private:
     void(GL_APIENTRY* _copyImage)(GLuint, GLenum, GLint, GLint, GLint, GLint, GLuint, GLenum, GLint,
                                   GLint, GLint, GLint, GLsizei, GLsizei, GLsizei) = nullptr;
     std::unordered_map<unsigned int, Texture> _textures;
-    std::unordered_map<std::uint32_t, GLuint> _plain;
-    GLuint _fault = 0;
+    PlainTextures _plain;
     GLuint _buffer = 0;
+    std::deque<UploadJob> _coarser; ///< These give memory back, so they are the first.
     std::deque<UploadJob> _jobs;
+    std::deque<Texture> _doomed; ///< Nobody names them any more.
     std::unique_ptr<Build> _build;
+    double _costOfByte = 1.0 / (1 << 20); ///< Milliseconds to make its memory.
+    bool _isCostKnown = false;
     std::uint64_t _bytes = 0;
     std::uint64_t _uploaded = 0;
 };

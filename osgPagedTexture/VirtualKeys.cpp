@@ -3,9 +3,9 @@
 
 #include <osgPagedTexture/VirtualScene.h>
 
-#include <osg/ApplicationUsage>
+#include <osgMultiRender/KeyEvents.h>
+
 #include <osg/Notify>
-#include <osgGA/EventVisitor>
 
 #include <string>
 
@@ -15,15 +15,7 @@ namespace osgPagedTexture
 namespace
 {
 
-using KeyEvent = osgGA::GUIEventAdapter;
-
-[[maybe_unused]] const bool isInUsage = []
-{
-    for (const PagedKey& key : virtualKeys())
-        osg::ApplicationUsage::instance()->addKeyboardMouseBinding(std::string(1, key.key),
-                                                                   key.help);
-    return true;
-}();
+[[maybe_unused]] const bool isInUsage = osgMultiRender::addToUsage(virtualKeys());
 
 /// One thing instead of the picture, or the picture again.
 std::string toggle(VirtualSettings& settings, VirtualShow show, const char* word)
@@ -78,20 +70,9 @@ const std::vector<PagedKey>& virtualKeys()
 
 void answerKeys(VirtualScene& scene, osgGA::EventVisitor& visitor)
 {
-    for (const osg::ref_ptr<osgGA::Event>& each : visitor.getEvents())
-    {
-        KeyEvent* event = each->asGUIEventAdapter();
-        if (!event || event->getHandled() || event->getEventType() != KeyEvent::KEYDOWN)
-            continue;
-        for (const PagedKey& key : virtualKeys())
-            if (event->getKey() == key.key)
-            {
-                answer(key.key, scene);
-                event->setHandled(true);
-                if (osgGA::GUIActionAdapter* viewer = visitor.getActionAdapter())
-                    viewer->requestRedraw();
-            }
-    }
+    osgMultiRender::answerPressed(visitor, virtualKeys(),
+                                  [&](char key, const osgGA::GUIEventAdapter&)
+                                  { answer(key, scene); });
 }
 
 } // namespace osgPagedTexture

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/VirtualOptions.h>
 
-#include <osgMultiRender/OptionText.h>
+#include <osgPagedTexture/OptionText.h>
 
 namespace osgPagedTexture
 {
-
-using namespace osgMultiRender::optionText;
 
 namespace
 {
@@ -35,20 +33,10 @@ const std::vector<VirtualOption>& virtualOptions()
         number("cpu", &S::cpuMegabytes, 0.0, 1048576.0, "MiB of pages in memory"),
         number("upload", &S::uploadMilliseconds, 0.01, 1000.0,
                "Milliseconds of a frame that uploads may take, those of paged textures included"),
-        number("threads", &S::threads, 0u, 256u,
-               "Threads that read and encode; 0: one less than the machine has"),
-        choice<Compression>("compression", &S::compression,
-                            {{"blocks", Compression::Blocks},
-                             {"best", Compression::Best},
-                             {"none", Compression::None}},
-                            "Texels on the GPU: BC1, or BC7 where there is alpha; BC7; not "
-                            "compressed"),
-        choice<EncodeQuality>("quality", &S::quality,
-                              {{"fast", EncodeQuality::Fast},
-                               {"normal", EncodeQuality::Normal},
-                               {"fine", EncodeQuality::Fine},
-                               {"best", EncodeQuality::Best}},
-                              "How much time compression takes for a better picture"),
+        threadsOption<S>(),
+        compressionOption<S>("Texels on the GPU: BC1, or BC7 where there is alpha; BC7; not "
+                             "compressed"),
+        qualityOption<S>(),
         number("aniso", &S::anisotropy, 0u, 16u,
                "Taps along the longer side of a pixel's footprint; 0: as each texture says"),
         number("feedback", &S::feedback, 1u, 64u,
@@ -78,12 +66,12 @@ bool setVirtualOption(VirtualSettings& settings, const std::string& name, const 
 
 std::string formatVirtualOptions(const VirtualSettings& settings)
 {
-    return formatOptions(virtualOptions(), settings);
+    return osgMultiRender::formatOptions(virtualOptions(), settings);
 }
 
 std::vector<std::string> parseVirtualOptions(VirtualSettings& settings, const std::string& text)
 {
-    return parseOptions(virtualOptions(), settings, text);
+    return osgMultiRender::parseOptions(virtualOptions(), settings, text);
 }
 
 } // namespace osgPagedTexture

@@ -3,13 +3,15 @@
 // it: frame times, memory, and the work of uploads.
 //
 //   osgPagedTexture.FlyThroughBenchmark --path FILE [--size WxH] [--seconds S] [--stand]
-//       [--rounds N] [--cache DIR] [--csv file] model...
+//       [--step S] [--rounds N] [--cache DIR] [--csv file] model...
 //
 // A model is a file as osgviewer takes it, "town.osgb" or "town.osgb.(gpu=64).pagedtexture", or
 // "untextured:town.osgb". Each flies in a process of its own, one after the other. Paths are made
 // by osgphotocity --path, or recorded by osgviewer with key z. --cache: folder of encoded textures,
 // for XDG_CACHE_HOME; empty ones show a first start. --stand: stays at the start of the path, so
-// that rest_s is what full quality takes. --rounds: each model so often, in turns; medians.
+// that rest_s is what full quality takes. --step: each frame so many seconds farther along the
+// path, however long it takes; with wait=on this fills the cache. --rounds: each model so often, in
+// turns; medians.
 //
 // Columns: seconds to load, to the first picture, and from the end of the path until textures are
 // at rest; frames and their times in ms; CPU time of uploads a frame in ms; of the texels that
@@ -44,6 +46,7 @@ struct Task
 {
     std::string model, path, cache;
     double seconds = 0.0; ///< Of the flight at most; 0: all of it.
+    double step = 0.0;    ///< Seconds of the path a frame; 0: in real time.
     bool stands = false;
     BenchmarkOptions options;
 };
@@ -127,7 +130,8 @@ public:
         const double end = _task.stands          ? 0.0
                            : _task.seconds > 0.0 ? std::min(_task.seconds, path->getPeriod())
                                                  : path->getPeriod();
-        for (double time = 0.0; time < end; time = secondsSince(takeOff))
+        for (double time = 0.0;
+             time<end; time = _task.step> 0.0 ? time + _task.step : secondsSince(takeOff))
             show(*path, time);
         const osg::Timer_t landing = osg::Timer::instance()->tick();
         const std::size_t frames = _frames.size();
@@ -243,6 +247,7 @@ int main(int argc, char** argv)
     arguments.read("--path", task.path);
     arguments.read("--cache", task.cache);
     arguments.read("--seconds", task.seconds);
+    arguments.read("--step", task.step);
     task.stands = arguments.read("--stand");
     task.options.rounds = 1;
     if (!task.options.read(arguments))

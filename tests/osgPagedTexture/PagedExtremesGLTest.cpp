@@ -27,16 +27,6 @@ const support::CompareImage Exact{0.0, 0.0, 0.0};
 class PagedExtremesGLTest : public testing::Test
 {
 protected:
-    /// A square before the eye with a picture of the folder.
-    std::string writeSquare(const std::string& picture)
-    {
-        const std::string file = _folder.file("square.osgt");
-        EXPECT_TRUE(osgDB::writeNodeFile(
-            *paged::makeSquare({0.0f, 4.0f, 0.0f}, paged::makeTexture(_folder.file(picture))),
-            file));
-        return file;
-    }
-
     /// Shows a grey picture of a ramp along its longer side.
     osg::ref_ptr<osg::Image> showRamp(int width, int height, const std::string& settings)
     {
@@ -47,7 +37,7 @@ protected:
                                                                            : y * 256LL / height);
         _folder.write("ramp.jpg", encodeJpeg(ramp));
         ramp = Pixels();
-        _scene = paged::read(writeSquare("ramp.jpg"), settings);
+        _scene = paged::read(paged::writeSquare(_folder, _folder.file("ramp.jpg")), settings);
         return paged::settle(_viewer, *_scene, paged::lookAlong());
     }
 
@@ -164,6 +154,12 @@ TEST_F(PagedExtremesGLTest, fiftyThousandTexturesCostNoSquareOfTheirNumber)
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     EXPECT_LT(seconds, 60.0) << "each file is opened once, for its header";
+    // Those that are neither in view nor there are not looked at.
+    for (int i = 0; i < 4; ++i)
+        _viewer.render(scene, paged::lookAlong({0.0, 460.0, 0.0}), 320, 240);
+    EXPECT_GT(paged::countOf(*scene, "textures.inView"), 50.0) << "no proof";
+    EXPECT_LT(paged::countOf(*scene, "textures.considered"), 1000.0);
+    RecordProperty("planOfFewMilliseconds", std::to_string(paged::countOf(*scene, "plan.ms")));
     std::vector<double> plans;
     for (int i = 0; i < 12; ++i)
     {

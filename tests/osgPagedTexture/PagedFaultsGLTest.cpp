@@ -24,15 +24,6 @@ const support::CompareImage Exact{0.0, 0.0, 0.0};
 class PagedFaultsGLTest : public testing::Test
 {
 protected:
-    /// A square before the eye with a picture.
-    std::string writeSquare(const std::string& picture)
-    {
-        const std::string file = _folder.file("square.osgt");
-        EXPECT_TRUE(osgDB::writeNodeFile(
-            *paged::makeSquare({0.0f, 4.0f, 0.0f}, paged::makeTexture(picture)), file));
-        return file;
-    }
-
     /// The middle of the picture.
     static osg::Vec4 middle(const osg::Image& picture)
     {
@@ -51,7 +42,7 @@ TEST_F(PagedFaultsGLTest, aDamagedFileIsNamedOnceAndShownAsAFault)
     OSGKITS_NEED_GL(_viewer);
     const std::string picture = paged::writePicture(_folder, "cut.jpg", 256, 256);
     std::filesystem::resize_file(picture, std::filesystem::file_size(picture) / 2);
-    const osg::ref_ptr<PagedScene> scene = paged::read(writeSquare(picture));
+    const osg::ref_ptr<PagedScene> scene = paged::read(paged::writeSquare(_folder, picture));
     const osg::ref_ptr<osg::Image> shown = paged::settle(_viewer, *scene, paged::lookAlong());
     int magenta = 0;
     for (int y = 0; y < shown->t(); ++y)
@@ -71,7 +62,8 @@ TEST_F(PagedFaultsGLTest, whatIsThereOfAFileThatVanishesStays)
 {
     OSGKITS_NEED_GL(_viewer);
     const std::string picture = paged::writePicture(_folder, "gone.png", 512, 512);
-    const osg::ref_ptr<PagedScene> scene = paged::read(writeSquare(picture), "gpu=1");
+    const osg::ref_ptr<PagedScene> scene =
+        paged::read(paged::writeSquare(_folder, picture), "gpu=1");
     paged::settle(_viewer, *scene, paged::lookAlong({0.0, -20.0, 0.0}));
     EXPECT_EQ(paged::countOf(*scene, "textures.resident"), 1.0);
     std::filesystem::remove(picture);
@@ -93,7 +85,7 @@ TEST_F(PagedFaultsGLTest, aFileThatChangesIsShownAsItIsThen)
         ASSERT_TRUE(osgDB::writeImageFile(*image, picture));
     };
     paint(50, 64);
-    const osg::ref_ptr<PagedScene> scene = paged::read(writeSquare(picture));
+    const osg::ref_ptr<PagedScene> scene = paged::read(paged::writeSquare(_folder, picture));
     EXPECT_NEAR(middle(*paged::settle(_viewer, *scene, paged::lookAlong())).r(), 50.0 / 255, 0.01);
     paint(200, 128);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);

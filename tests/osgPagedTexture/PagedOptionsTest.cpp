@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <support/NotifyCapture.h>
-#include <support/SettingsPage.h>
+#include "OptionChecks.h"
 
+#include <osgPagedTexture/PagedKeys.h>
 #include <osgPagedTexture/PagedOptions.h>
 #include <osgPagedTexture/PagedScene.h>
+
+#include <osgGA/EventVisitor>
 
 #include <gtest/gtest.h>
 
@@ -34,37 +36,46 @@ PagedSettings allChanged()
 
 TEST(PagedOptionsTest, eachSettingSurvivesItsText)
 {
-    EXPECT_EQ(Changed.size(), pagedOptions().size());
     const PagedSettings changed = allChanged();
     PagedSettings back;
     EXPECT_TRUE(parsePagedOptions(back, formatPagedOptions(changed)).empty());
-    for (const PagedOption& option : pagedOptions())
-    {
-        EXPECT_EQ(option.format(back), Changed.at(option.name)) << option.name;
-        EXPECT_NE(option.format(PagedSettings()), Changed.at(option.name)) << option.name;
-    }
+    paged::expectChanged(pagedOptions(), Changed, back);
     EXPECT_EQ(formatPagedOptions(PagedSettings()), "");
 }
 
 TEST(PagedOptionsTest, whatIsWrongInAFileIsNamedAndTheRestCounts)
 {
-    support::NotifyCapture notes;
-    const osg::ref_ptr<PagedScene> scene = new PagedScene;
-    scene->setSettingsText("gpu=-1,cpu=7,sise=3");
-    const support::NotifyCapture::Lines warnings = notes.takeWarnings();
-    ASSERT_EQ(warnings.size(), 2u);
-    EXPECT_NE(warnings[0].find("'gpu=-1'"), std::string::npos) << warnings[0];
-    EXPECT_NE(warnings[1].find("'sise=3' is not known"), std::string::npos) << warnings[1];
-    EXPECT_EQ(scene->getSettings().cpuMegabytes, 7.0);
+    paged::expectWrongOnesAreNamedAndTheRestCounts<PagedScene>();
 }
 
 TEST(PagedOptionsTest, thePageOfSettingsHasThemAll)
 {
-    std::vector<support::DocumentedSetting> settings;
-    for (const PagedOption& option : pagedOptions())
-        settings.push_back({option.name, option.values, option.format(PagedSettings())});
-    EXPECT_EQ(support::undocumented(OSGKITS_SETTINGS_PAGE, "## Paged textures", settings),
-              std::vector<std::string>());
+    paged::expectDocumented(pagedOptions(), "## Paged textures");
+}
+
+TEST(PagedOptionsTest, eachKeyChangesItsSettingAndChangesItBack)
+{
+    const osg::ref_ptr<PagedScene> scene = new PagedScene;
+    support::NotifyCapture notes;
+    const auto press = [&](int key)
+    {
+        const osg::ref_ptr<osgGA::GUIEventAdapter> event = new osgGA::GUIEventAdapter;
+        event->setEventType(osgGA::GUIEventAdapter::KEYDOWN);
+        event->setKey(key);
+        const osg::ref_ptr<osgGA::EventVisitor> visitor = new osgGA::EventVisitor;
+        visitor->addEvent(event);
+        scene->accept(*visitor);
+        EXPECT_TRUE(event->getHandled()) << char(key);
+    };
+    for (const auto& [key, text] : {std::pair('H', "graph='on'"), std::pair('W', "show='levels'"),
+                                    std::pair('F', "freeze='on'")})
+    {
+        press(key);
+        EXPECT_EQ(scene->getSettingsText(), text);
+        press(key);
+        EXPECT_EQ(scene->getSettingsText(), "");
+    }
+    EXPECT_EQ(pagedKeys().size(), 3u);
 }
 
 } // namespace

@@ -66,6 +66,13 @@ osg::ref_ptr<osg::Geode> makeSquare(const osg::Vec3& center, osg::Texture2D* tex
     return geode;
 }
 
+std::string writeSquare(const support::TemporaryFolder& folder, const std::string& picture)
+{
+    const std::string file = folder.file("square.osgt");
+    EXPECT_TRUE(osgDB::writeNodeFile(*makeSquare({0.0f, 4.0f, 0.0f}, makeTexture(picture)), file));
+    return file;
+}
+
 std::string writeCity(const support::TemporaryFolder& folder, int rows, int columns, int side)
 {
     osg::ref_ptr<osg::Group> city = new osg::Group;

@@ -31,6 +31,10 @@ osg::ref_ptr<osg::Geode> makeSquare(const osg::Vec3& center, osg::Texture2D* tex
 /// A texture of a file, not read: only its name counts.
 osg::ref_ptr<osg::Texture2D> makeTexture(const std::string& file);
 
+/// A model of one such square before the eye with a picture, named as the model names it:
+/// square.osgt, whose path is returned.
+std::string writeSquare(const support::TemporaryFolder& folder, const std::string& picture);
+
 /// Rows of squares, from 4 to 4 + 8 * rows units away from the origin along y, each with a picture
 /// of its own of `side` x `side` texels: city.osgt, whose path is returned.
 std::string writeCity(const support::TemporaryFolder& folder, int rows, int columns, int side);

@@ -55,6 +55,15 @@ TEST(ResidencyTest, texturesThatFitTogetherAreLoadedWholeWhereTheyAreInView)
     EXPECT_EQ(plan.first, (std::vector<int>{0, -1}));
 }
 
+TEST(ResidencyTest, texturesThatWishNothingCountForWhetherAllFit)
+{
+    const std::vector<ResidencyWish> wishes = {wish(3.0)};
+    EXPECT_TRUE(planResidency(wishes, 2 * large()[0], large()[0]).isWhole);
+    const ResidencyPlan plan = planResidency(wishes, 2 * large()[0], large()[0] + 1);
+    EXPECT_FALSE(plan.isWhole);
+    EXPECT_EQ(plan.first, std::vector<int>{3});
+}
+
 TEST(ResidencyTest, whatFitsGetsTheLevelThatItNeeds)
 {
     const std::vector<ResidencyWish> wishes = {wish(1.9), wish(3.0), wish(7.2)};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include "OptionChecks.h"
+
 #include <osgPagedTexture/VirtualOptions.h>
 #include <osgPagedTexture/VirtualScene.h>
-#include <support/NotifyCapture.h>
-#include <support/SettingsPage.h>
 
 #include <gtest/gtest.h>
 
@@ -30,34 +30,18 @@ TEST(VirtualOptionsTest, eachSettingSurvivesAsText)
         EXPECT_TRUE(setVirtualOption(settings, name, value, error)) << error;
     EXPECT_EQ(parseVirtualOptions(back, formatVirtualOptions(settings)),
               std::vector<std::string>());
-    ASSERT_EQ(virtualOptions().size(), Changed.size());
-    for (const VirtualOption& option : virtualOptions())
-    {
-        EXPECT_EQ(option.format(back), Changed.at(option.name)) << option.name;
-        EXPECT_NE(option.format(VirtualSettings()), Changed.at(option.name)) << option.name;
-    }
+    paged::expectChanged(virtualOptions(), Changed, back);
     EXPECT_EQ(formatVirtualOptions(VirtualSettings()), "");
 }
 
 TEST(VirtualOptionsTest, whatIsWrongInAFileIsNamedAndTheRestCounts)
 {
-    support::NotifyCapture notes;
-    const osg::ref_ptr<VirtualScene> scene = new VirtualScene;
-    scene->setSettingsText("gpu=-1,cpu=7,sise=3");
-    const support::NotifyCapture::Lines warnings = notes.takeWarnings();
-    ASSERT_EQ(warnings.size(), 2u);
-    EXPECT_NE(warnings[0].find("'gpu=-1'"), std::string::npos) << warnings[0];
-    EXPECT_NE(warnings[1].find("'sise=3' is not known"), std::string::npos) << warnings[1];
-    EXPECT_EQ(scene->getSettings().cpuMegabytes, 7.0);
+    paged::expectWrongOnesAreNamedAndTheRestCounts<VirtualScene>();
 }
 
 TEST(VirtualOptionsTest, thePageOfSettingsHasThemAll)
 {
-    std::vector<support::DocumentedSetting> settings;
-    for (const VirtualOption& option : virtualOptions())
-        settings.push_back({option.name, option.values, option.format(VirtualSettings())});
-    EXPECT_EQ(support::undocumented(OSGKITS_SETTINGS_PAGE, "## Virtual textures", settings),
-              std::vector<std::string>());
+    paged::expectDocumented(virtualOptions(), "## Virtual textures");
 }
 
 } // namespace osgPagedTexture

@@ -301,6 +301,11 @@ bool HeadlessViewer::State::prepare(osg::Node* node, const CameraSpec& camera, i
 bool HeadlessViewer::State::drawFrames(unsigned int frames)
 {
     glErrors.clear();
+    // A viewer takes its context for current until it changes it, whatever another viewer in this
+    // thread has made current or closed since.
+    osg::GraphicsContext* context = viewer.getCamera()->getGraphicsContext();
+    if (viewer.isRealized() && viewer.getThreadingModel() == osgViewer::ViewerBase::SingleThreaded)
+        context->makeCurrent();
     for (unsigned int i = 0; i < frames; ++i)
     {
         viewer.frame(time);
