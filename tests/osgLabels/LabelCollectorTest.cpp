@@ -287,7 +287,9 @@ TEST_F(LabelCollectorTest, scalesThatNoObjectHasAnyMoreAreForgotten)
         ASSERT_NEAR((*scale)(0, 0) / (*scale)(1, 1), factor, 1e-9) << i;
         ASSERT_LE(number, 3u) << "numbers are given again";
         if (before)
+        {
             ASSERT_LT((*before)(0, 0), (*scale)(0, 0)) << "what a frame has taken stays as it was";
+        }
         before = scale;
         group->removeChild(1);
         collector.sweep(*group, 10);

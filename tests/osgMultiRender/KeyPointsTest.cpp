@@ -118,8 +118,10 @@ TEST(KeyPoints, cellsTellTheDistanceToTheNearestOfAll)
                     told += distance.has_value();
                     // Candidates are left out by planes in double precision.
                     if (distance)
+                    {
                         ASSERT_NEAR(*distance, keys.distance(place),
                                     1e-14 * (*distance + glm::length(place)));
+                    }
                 }
                 if (isEven)
                 {
