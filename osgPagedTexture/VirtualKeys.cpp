@@ -33,7 +33,7 @@ void answer(char key, VirtualScene& scene)
     {
     case 'u':
         scene.update();
-        said = "stores are read again";
+        said = "stores are brought up to date with their photographs";
         break;
     case 'C':
         said = toggle(settings, VirtualShow::Levels, "levels");
@@ -59,7 +59,8 @@ void answer(char key, VirtualScene& scene)
 const std::vector<PagedKey>& virtualKeys()
 {
     static const std::vector<PagedKey> keys = {
-        {'u', "Virtual textures: stores are read again"},
+        {'u',
+         "Virtual textures: stores are brought up to date with their photographs and read again"},
         {'C', "Virtual textures: the picture, or a colour for the level of each pixel"},
         {'T', "Virtual textures: the picture, or borders of pages over it"},
         {'=', "Virtual textures: no page comes or goes, or they do again"},

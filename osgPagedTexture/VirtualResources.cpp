@@ -167,16 +167,35 @@ unsigned int VirtualResources::step(unsigned int frame, bool isNew)
     return _step;
 }
 
-void VirtualResources::invalidate()
+void VirtualResources::reload(Store& store)
+{
+    if (store.number >= 0)
+        _pager->invalidate(std::uint32_t(store.number));
+    else
+        store.isTried = false;
+}
+
+void VirtualResources::reload()
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    for (auto& [file, store] : _stores)
+    for (auto& each : _stores)
+        reload(each.second);
+}
+
+void VirtualResources::update()
+{
+    std::vector<std::string> files;
     {
-        if (store.number >= 0)
-            _pager->invalidate(std::uint32_t(store.number));
-        else
-            store.isTried = false;
+        std::lock_guard<std::mutex> lock(_mutex);
+        for (const auto& each : _stores)
+            files.push_back(each.first);
     }
+    _update.start(files,
+                  [this](const std::string& file)
+                  {
+                      std::lock_guard<std::mutex> lock(_mutex);
+                      reload(_stores.at(file));
+                  });
 }
 
 void VirtualResources::say(double seconds)
@@ -211,6 +230,8 @@ bool VirtualResources::isAtRest() const
     std::lock_guard<std::mutex> lock(_mutex);
     if (_stores.empty())
         return true;
+    if (_update.isRunning())
+        return false;
     if (!_pager || !_pager->isAtRest())
         return !_pager && std::all_of(_stores.begin(), _stores.end(),
                                       [](const auto& each) { return each.second.isTried; });

@@ -5,6 +5,7 @@
 #include <osgPagedTexture/VirtualContext.h>
 #include <osgPagedTexture/VirtualSettings.h>
 #include <osgPagedTexture/VirtualTexture.h>
+#include <osgPagedTexture/VirtualUpdate.h>
 
 #include <osg/observer_ptr>
 
@@ -42,7 +43,10 @@ public:
     unsigned int step(unsigned int frame, bool isNew = false);
 
     /// Reads all stores again, whether or not they say that they have changed.
-    void invalidate();
+    void reload();
+
+    /// Brings them up to date with their photographs, in the background, and reads them again.
+    void update();
 
     /// Says what the pager has to tell the user.
     void say(double seconds);
@@ -71,6 +75,7 @@ private:
     };
     void makePager(osg::State& state);
     void open(Store& store);
+    void reload(Store& store);
 
     mutable std::mutex _mutex;
     VirtualSettings _settings;
@@ -88,6 +93,7 @@ private:
     bool _hasFrame = false;
     unsigned int _step = 0;
     double _saidAt = -1e9;
+    VirtualUpdate _update; ///< The last member: its thread uses the others.
 };
 
 } // namespace osgPagedTexture

@@ -156,9 +156,14 @@ void VirtualScene::install(const osgDB::Options* options)
     }
 }
 
+void VirtualScene::reload()
+{
+    _resources->reload();
+}
+
 void VirtualScene::update()
 {
-    _resources->invalidate();
+    _resources->update();
 }
 
 bool VirtualScene::isAtRest() const

@@ -48,7 +48,13 @@ public:
     /// scene from a file does it at its first frame. Images become the stores' coarsest pages.
     void install(const osgDB::Options* options = nullptr);
 
-    /// Reads changed stores again, and those that could not be read: what key `u` does.
+    /// Reads stores again, also those that could not be read. What is shown goes over to a changed
+    /// store in one frame, when all its pages in view are there.
+    void reload();
+
+    /// What key `u` does: brings the stores up to date with the photographs they were built from,
+    /// as `osgtilestore update` does, in the background, and reads them again. Stores that know no
+    /// photographs are only read again. What was done and what went wrong is said by osg::notify().
     void update();
 
     /// Whether all that was in view in the last frames is there as fine as the memory allows.

@@ -109,7 +109,7 @@ TEST_F(VirtualUpdateGLTest, noFrameMixesOldAndNewPagesAtRest)
     virtuals::settle(_viewer, *scene, scene, lookFrom({0.0, 0.0, 4.0}), 160, 120);
     paint(Blue);
     EXPECT_GT(shownIn(*_viewer.render(scene, lookFrom({0.0, 0.0, 4.0}), 160, 120)).red, 0u);
-    scene->update();
+    scene->reload();
     RecordProperty("frames", lookAtFrames(*scene, 0.0));
 }
 
@@ -124,7 +124,7 @@ TEST_F(VirtualUpdateGLTest, noFrameMixesOldAndNewPagesWhileTheCameraMoves)
         const auto scene = makeScene(settings);
         virtuals::settle(_viewer, *scene, scene, lookFrom({0.0, 0.0, 4.0}), 160, 120);
         paint(Blue);
-        scene->update();
+        scene->reload();
         RecordProperty(std::string("frames.") + settings, lookAtFrames(*scene, 0.02));
     }
 }
@@ -136,7 +136,7 @@ TEST_F(VirtualUpdateGLTest, farAwayWhereOnePageIsTooFineTheChangeShowsToo)
     const auto camera = lookFrom({0.0, 0.0, 500.0});
     EXPECT_GT(shownIn(*virtuals::settle(_viewer, *scene, scene, camera, 160, 120)).red, 0u);
     paint(Blue);
-    scene->update();
+    scene->reload();
     EXPECT_GT(shownIn(*virtuals::settle(_viewer, *scene, scene, camera, 160, 120)).blue, 0u);
 }
 
@@ -156,7 +156,7 @@ TEST_F(VirtualUpdateGLTest, aStoreThatIsDeletedOrTruncatedKeepsItsPicture)
     const auto camera = lookFrom({0.0, 0.0, 4.0});
     virtuals::settle(_viewer, *scene, scene, camera, 160, 120);
     fs::resize_file(_store, fs::file_size(_store) / 3);
-    scene->update();
+    scene->reload();
     const auto lookAround = [&]
     {
         for (int frame = 0; frame < 60; ++frame)
@@ -168,11 +168,11 @@ TEST_F(VirtualUpdateGLTest, aStoreThatIsDeletedOrTruncatedKeepsItsPicture)
     };
     lookAround();
     fs::remove(_store);
-    scene->update();
+    scene->reload();
     lookAround();
     // Back again, it is taken up.
     virtuals::buildStore(_store, virtuals::makePlain(Side, Side, Blue));
-    scene->update();
+    scene->reload();
     lookAtFrames(*scene, 0.0);
     EXPECT_FALSE(_notes.takeWarnings().empty());
 }
