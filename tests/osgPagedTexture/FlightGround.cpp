@@ -62,6 +62,24 @@ void buildGround(const std::string& path, std::int64_t side, int tileSide)
     writer.commit();
 }
 
+void paintGround(const std::string& path, const PixelRect& photograph, TileColor color)
+{
+    TilePackWriter::Options options;
+    options.durable = false;
+    TilePackWriter writer(path, options);
+    const TileGrid grid = TilePackReader(path).getSettings().grid;
+    for (int level = 0; level < grid.getLevels(); ++level)
+    {
+        const std::int64_t side = std::int64_t(grid.getPayload()) << level;
+        for (std::int64_t y = (photograph.y + side - 1) / side;
+             (y + 1) * side <= photograph.y + photograph.height; ++y)
+            for (std::int64_t x = (photograph.x + side - 1) / side;
+                 (x + 1) * side <= photograph.x + photograph.width; ++x)
+                writer.put({level, x, y}, TileData::uniform(color));
+    }
+    writer.commit();
+}
+
 support::CameraSpec cameraAt(int frame)
 {
     const double t = 2.0 * 3.14159265 * frame / Frames;

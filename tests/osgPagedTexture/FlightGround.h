@@ -18,6 +18,11 @@ constexpr int Frames = 240;       ///< Of a round.
 /// them takes seconds, not minutes.
 void buildGround(const std::string& path, std::int64_t side, int tileSide);
 
+/// Gives one colour to all tiles on all levels that lie in a rectangle of texels of level 0, as a
+/// photograph does that has been painted over.
+void paintGround(const std::string& path, const osgPagedTexture::PixelRect& photograph,
+                 osgPagedTexture::TileColor color);
+
 /// 4 to 20 units above the ground, looking ahead and down, 16:9.
 support::CameraSpec cameraAt(int frame);
 

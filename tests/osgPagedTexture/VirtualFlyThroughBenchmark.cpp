@@ -5,6 +5,8 @@
 
 #include <osgPagedTexture/FrameTimes.h>
 
+#include <support/CompareImage.h>
+
 #include <osg/Material>
 
 #include <gtest/gtest.h>
@@ -175,6 +177,41 @@ TEST_F(VirtualFlyThroughBenchmark, timeUntilSharpAfterAJump)
         } while ((frames < 4 || virtuals::countOf(*scene, "pages.missing") > 0.0) && frames < 500);
         std::printf("jump %d: sharp after %.0f ms, %d frames, %.0f pages needed\n", jump,
                     milliseconds(start), frames, virtuals::countOf(*scene, "pages.needed"));
+    }
+}
+
+// A photograph in the middle of the view is saved again and again.
+TEST_F(VirtualFlyThroughBenchmark, framesUntilAnUpdateShows)
+{
+    OSGKITS_NEED_GL(_viewer);
+    const auto scene = makeScene("gpu=128");
+    const support::CameraSpec camera = flight::cameraAt(0);
+    virtuals::settle(_viewer, *scene, scene, camera, Width, Height);
+    const auto side = std::int64_t(26000);
+    const auto texel = [&](double place) { return std::int64_t(place * double(side) / Ground); };
+    // In front of the eye, whose place is (300, 0); the first row of a store lies at the far end.
+    const PixelRect photograph{texel(Ground / 2.0 + 250.0), texel(Ground / 2.0 - 120.0), 2600,
+                               2600};
+    for (int round = 0; round < 6; ++round)
+    {
+        const auto before = _viewer.render(scene, camera, Width, Height);
+        const auto shade = std::uint8_t(40 * round);
+        flight::paintGround(_folder.file("pattern128"), photograph, {shade, 255, shade, 255});
+        const double uploaded = virtuals::countOf(*scene, "pages.uploaded");
+        const Clock::time_point start = Clock::now();
+        scene->reload();
+        int frames = 0;
+        double share = 0.0;
+        for (; share == 0.0 && frames < 500; ++frames)
+        {
+            std::this_thread::sleep_until(start + frames * std::chrono::milliseconds(33));
+            const auto shown = _viewer.render(scene, camera, Width, Height);
+            share = support::difference(*shown, *before, 16.0 / 255.0).getShareOver();
+        }
+        std::printf(
+            "update %d: shown in frame %d, after %.0f ms, %.0f pages, %.0f %% of the view\n", round,
+            frames, milliseconds(start), virtuals::countOf(*scene, "pages.uploaded") - uploaded,
+            100.0 * share);
     }
 }
 
