@@ -2,6 +2,8 @@
 // At rest a virtual texture shows what a plain one shows.
 #include "VirtualScenes.h"
 
+#include <osgPagedTexture/TileFolders.h>
+
 #include <support/CompareImage.h>
 #include <support/NotifyCapture.h>
 
@@ -11,10 +13,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 namespace
 {
 
+using osgPagedTexture::FolderLayout;
+using osgPagedTexture::TileFolderWriter;
+using osgPagedTexture::TileGrid;
+using osgPagedTexture::TileStoreSettings;
 using osgPagedTexture::VirtualScene;
 
 [[maybe_unused]] const bool filtersExactly = (virtuals::filterExactly(), true);
@@ -63,6 +70,35 @@ TEST_F(VirtualPictureGLTest, atRestThePictureIsThatOfAPlainTexture)
         EXPECT_EQ(virtuals::countOf(*scene, "levels.missing"), 0.0) << "no proof";
     }
     EXPECT_GT(virtuals::countOf(*scene, "pages.uploaded"), 100.0) << "no proof";
+}
+
+// Deep Zoom's tiles end with the picture, at the right and below, and its levels are numbered from
+// the coarsest.
+TEST_F(VirtualPictureGLTest, foldersOfLibVTAndDeepZoomShowTheSame)
+{
+    OSGKITS_NEED_GL(_viewer);
+    const virtuals::Levels levels = virtuals::makeLevels(1024, 512);
+    const auto plain = virtuals::makeFloor(virtuals::makePlainTexture(levels), 10.0f);
+    for (const auto& [name, layout, edge] :
+         {std::tuple{"libvt", FolderLayout::LibVT, TileGrid::Edge::Padded},
+          std::tuple{"web.dzi", FolderLayout::DeepZoom, TileGrid::Edge::Clipped}})
+    {
+        TileStoreSettings settings;
+        settings.format = "png";
+        settings.grid = TileGrid(1024, 512, 64, 2, edge);
+        TileFolderWriter writer(_folder.file(name), layout, settings, {});
+        virtuals::writeTiles(writer, settings.grid, levels);
+        const auto scene = virtuals::makeScene(
+            virtuals::makeFloor(virtuals::makeVirtualTexture(_folder.file(name)), 10.0f));
+        for (const osg::Vec3d& eye : {osg::Vec3d(3.0, 2.0, 3.0), osg::Vec3d(0.0, -14.0, 8.0)})
+        {
+            const auto camera = lookFrom(eye);
+            EXPECT_TRUE(Same(virtuals::settle(_viewer, *scene, scene, camera),
+                             _viewer.render(plain, camera, 320, 240),
+                             std::string("virtual.") + name));
+            EXPECT_EQ(virtuals::countOf(*scene, "levels.missing"), 0.0) << "no proof";
+        }
+    }
 }
 
 TEST_F(VirtualPictureGLTest, bordersOfPagesShowNoSeamAtAnyAngleAndLevel)
