@@ -7,13 +7,11 @@
 #include <osgLabels/PrimitiveBatch.h>
 
 #include <support/NotifyCapture.h>
+#include <support/ResidentMemory.h>
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
-
-#include <unistd.h>
 
 using namespace labelScene;
 using osgLabels::LabelBuffers;
@@ -85,14 +83,6 @@ void change(osgLabels::LabelScene& scene, std::uint64_t total)
     }
 }
 
-/// Bytes of memory that this process has, in RAM.
-std::size_t residentBytes()
-{
-    std::size_t all = 0, resident = 0;
-    std::ifstream("/proc/self/statm") >> all >> resident;
-    return resident * std::size_t(sysconf(_SC_PAGESIZE));
-}
-
 class LabelChange : public testing::Test
 {
 protected:
@@ -116,7 +106,8 @@ TEST_F(LabelChange, aHundredThousandASecondAreUploadedWithoutGrowthAndShown)
     const auto total = std::uint64_t(duration() * ChangesPerSecond);
     const Clock::time_point start = Clock::now();
     std::thread changes([&] { change(*scene, total); });
-    std::size_t sent = 0, frames = 0, most = 0, resident = 0;
+    std::size_t sent = 0, frames = 0, most = 0;
+    double resident = 0.0;
     while (secondsSince(start) < duration())
     {
         render(*scene, fromFront(), Width, Height, 1);
@@ -124,10 +115,10 @@ TEST_F(LabelChange, aHundredThousandASecondAreUploadedWithoutGrowthAndShown)
         sent += traffic.bytesSent;
         most = std::max(most, traffic.bytesSent);
         ++frames;
-        if (resident == 0 && secondsSince(start) > duration() / 2)
-            resident = residentBytes();
+        if (resident == 0.0 && secondsSince(start) > duration() / 2)
+            resident = support::residentMiB();
     }
-    const std::size_t residentAtEnd = residentBytes();
+    const double residentAtEnd = support::residentMiB();
     changes.join();
     const double seconds = secondsSince(start);
     const Picture after = render(*scene);
@@ -144,7 +135,7 @@ TEST_F(LabelChange, aHundredThousandASecondAreUploadedWithoutGrowthAndShown)
     EXPECT_LT(resources->buffers.getTraffic(context).bytesHeld, Objects * (3 * 13 * 6 / 8 + 4));
     // The allocator and the driver keep pools. Each change kept would take 100 bytes and more: 50
     // MB in the second half of ten seconds.
-    EXPECT_LT(double(residentAtEnd), double(resident) + 8e6);
+    EXPECT_LT(residentAtEnd, resident + 8.0);
 
     std::vector<std::string> last(Objects);
     for (std::uint64_t i = total - std::min<std::uint64_t>(total, Objects); i < total; ++i)

@@ -6,6 +6,8 @@
 #include <osgLabels/PrimitiveBatch.h>
 #include <osgShadowVolume/ShadowedScene.h>
 
+#include <support/WindowViews.h>
+
 #include <osg/Camera>
 #include <osg/LightSource>
 
@@ -219,6 +221,21 @@ TEST_F(MapComposition, viewportsBesideEachOtherHaveTargetsOfTheirOwn)
     EXPECT_GT(left, 100);
     EXPECT_EQ(left, redPixels(*picture, labelScene::Width / 2, labelScene::Width));
     EXPECT_EQ(redPixels(*picture, 0, labelScene::Width / 4), 0) << "hidden there";
+}
+
+TEST_F(MapComposition, slaveCamerasShowPartsOfOnePicture)
+{
+    const auto make = []
+    {
+        return labelScene::unlit(scene(
+            {before(), middle(), label("half of it", {0, 0, 0}), label("across", {0, -1.5, 0.3})}));
+    };
+    const Picture joined = support::drawHalves(*make(), labelScene::fromFront(), labelScene::Width,
+                                               labelScene::Height);
+    const Picture whole = render(*make());
+    ASSERT_TRUE(joined && whole);
+    EXPECT_GT(redPixels(*whole, 0, labelScene::Width / 2), 100) << "one lies across";
+    EXPECT_TRUE(labelScene::areAlike(joined, whole, "map-slaves"));
 }
 
 TEST_F(MapComposition, withoutLabelsInViewNothingIsDrawnForThem)

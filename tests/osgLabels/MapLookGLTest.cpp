@@ -84,6 +84,33 @@ TEST_F(MapLook, leaderLinesRunFromTheAnchorUpToThePlate)
             << y;
 }
 
+TEST_F(MapLook, platesAreOpaqueTranslucentOrNone)
+{
+    const auto pixels = [](const std::string& plate, const osg::Vec3& color)
+    {
+        const osg::Vec4 wall(0.5f, 0.5f, 0.5f, 1.0f);
+        const Picture picture = render(*labelScene::unlit(scene(
+            {sheet("wall", {-1, 1, -1}, {2, 0, 0}, {0, 0, 2}, wall), label("text", {0, 0, 0})},
+            "mapsize=24,ink=#ff0000,plate=" + plate)));
+        keep(picture, "map-plate");
+        int count = 0;
+        for (int y = 0; y < picture->t(); ++y)
+            for (int x = 0; x < picture->s(); ++x)
+            {
+                const osg::Vec4 at = picture->getColor(unsigned(x), unsigned(y));
+                count += (osg::Vec3(at.x(), at.y(), at.z()) - color).length() < 0.02f;
+            }
+        return count;
+    };
+    const osg::Vec3 opaque(0, 0, 1), half(0.25f, 0.25f, 0.75f);
+    EXPECT_GT(pixels("#0000ff", opaque), 200);
+    EXPECT_EQ(pixels("#0000ff", half), 0);
+    EXPECT_GT(pixels("#0000ff80", half), 200);
+    EXPECT_EQ(pixels("#0000ff80", opaque), 0);
+    EXPECT_EQ(pixels("off", opaque) + pixels("off", half), 0);
+    EXPECT_GT(pixels("off", {1, 0, 0}), 20) << "letters stay";
+}
+
 TEST_F(MapLook, theOffsetBringsLabelsNearer)
 {
     const auto at = [](const std::string& settings) {

@@ -3,16 +3,16 @@
 #include "PlacedShapes.h"
 #include "PlacementShader.h"
 
+#include <support/CompareImage.h>
 #include <support/HeadlessViewer.h>
 
 #include <osg/MatrixTransform>
 #include <osg/Program>
-#include <osgDB/FileUtils>
-#include <osgDB/WriteFile>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 using namespace osgLabels;
@@ -138,7 +138,6 @@ TEST(PlacementPicturesGLTest, everyShapeHasReadableText)
 {
     support::HeadlessViewer viewer({Side, Side});
     OSGKITS_NEED_GL(viewer);
-    osgDB::makeDirectory("images");
     const std::vector<osg::Vec3d> from = {osg::Vec3d(0.3, -1, 0.35), osg::Vec3d(1, -0.2, 0.5),
                                           osg::Vec3d(-0.6, 0.7, 0.2), osg::Vec3d(0.2, -0.3, 1),
                                           osg::Vec3d(0.4, -0.6, -0.7)};
@@ -146,8 +145,13 @@ TEST(PlacementPicturesGLTest, everyShapeHasReadableText)
         osg::Matrixd::rotate(osg::PI_2, 0, 1, 0) * osg::Matrixd::rotate(0.4, 0, 0, 1);
     for (std::size_t first = 0; first < placedShapes().size(); first += 7)
     {
-        const std::string name = "images/placement" + std::to_string(first / 7);
-        osgDB::writeImageFile(*contactSheet(viewer, from, osg::Matrixd(), first, 7), name + ".png");
-        osgDB::writeImageFile(*contactSheet(viewer, from, turned, first, 7), name + "turned.png");
+        const std::string name = "placement" + std::to_string(first / 7);
+        const auto upright = contactSheet(viewer, from, osg::Matrixd(), first, 7);
+        const auto lying = contactSheet(viewer, from, turned, first, 7);
+        if (std::getenv("OSGKITS_KEEP_IMAGES"))
+        {
+            support::writeImage(*upright, name);
+            support::writeImage(*lying, name + "turned");
+        }
     }
 }

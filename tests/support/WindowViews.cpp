@@ -75,12 +75,12 @@ osg::ref_ptr<Capture> capture(osg::Camera& camera, osg::GraphicsContext* window,
     return capture;
 }
 
-/// More than one: what is kept from frame to frame counts too.
+/// Four, a second apart: what is kept from frame to frame counts too.
 void drawFrames(osgViewer::ViewerBase& viewer)
 {
     viewer.realize();
-    for (int frame = 0; frame < 3; ++frame)
-        viewer.frame();
+    for (double second = 1.0; second <= 4.0; second += 1.0)
+        viewer.frame(second);
 }
 
 } // namespace
@@ -143,8 +143,8 @@ osg::ref_ptr<osg::Image> OwnWindow::getPicture() const
     return _capture ? static_cast<const Capture&>(*_capture).get() : nullptr;
 }
 
-osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, int width,
-                                    int height)
+osg::ref_ptr<osg::Image> drawSlaves(osg::Node& scene, const CameraSpec& camera, int width,
+                                    int height, const SlaveOffset& left, const SlaveOffset& right)
 {
     const osg::ref_ptr<osg::GraphicsContext> window = makeWindow(width, height);
     if (!window)
@@ -160,9 +160,8 @@ osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, 
     {
         osg::ref_ptr<osg::Camera> slave = new osg::Camera;
         captures[i] = capture(*slave, window, half * i, 0, half, height);
-        viewer.addSlave(slave);
-        viewer.getSlave(unsigned(i))._projectionOffset =
-            osg::Matrix::scale(2, 1, 1) * osg::Matrix::translate(i ? -1.0 : 1.0, 0, 0);
+        const SlaveOffset& offset = i == 0 ? left : right;
+        viewer.addSlave(slave, offset.projection, offset.view);
     }
     viewer.setSceneData(&scene);
     drawFrames(viewer);
@@ -178,6 +177,14 @@ osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, 
             std::copy_n(picture->data(0, y), 4 * half, joined->data(half * i, y));
     }
     return joined;
+}
+
+osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, int width,
+                                    int height)
+{
+    const auto half = [](double shift)
+    { return osg::Matrixd::scale(2, 1, 1) * osg::Matrixd::translate(shift, 0, 0); };
+    return drawSlaves(scene, camera, width, height, {half(1.0), {}}, {half(-1.0), {}});
 }
 
 osg::ref_ptr<osg::Camera> makeTargetCamera(osg::Node* node, const CameraSpec& spec, int width,

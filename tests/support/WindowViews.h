@@ -5,6 +5,7 @@
 
 #include <osg/Camera>
 #include <osg/Image>
+#include <osg/Matrixd>
 #include <osgViewer/View>
 
 #include <memory>
@@ -59,8 +60,18 @@ private:
     osg::ref_ptr<osg::Camera::DrawCallback> _capture;
 };
 
+/// What a slave camera's matrices have behind those of its viewer.
+struct SlaveOffset
+{
+    osg::Matrixd projection, view;
+};
+
 /// The picture of a window whose left and right halves are slave cameras of one viewer, as two
-/// projectors show it; `width` is even. Null, and a failure, where it can't be drawn.
+/// projectors or two eyes; `width` is even. Null, and a failure, where it can't be drawn.
+osg::ref_ptr<osg::Image> drawSlaves(osg::Node& scene, const CameraSpec& camera, int width,
+                                    int height, const SlaveOffset& left, const SlaveOffset& right);
+
+/// As drawSlaves(), of which each shows its half of the camera's picture.
 osg::ref_ptr<osg::Image> drawHalves(osg::Node& scene, const CameraSpec& camera, int width,
                                     int height);
 
