@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace osgMultiRender
@@ -18,7 +18,7 @@ namespace
 constexpr std::size_t Enough = 24;
 constexpr int MostVain = 3;
 
-/// Of one grid: cells, without their lists, and looks at candidates, some 30 ns each.
+/// Of one grid: cells, without their lists, and looks at candidates, some 10 to 30 ns each.
 constexpr std::size_t MostCells = std::size_t(1) << 15;
 constexpr std::size_t MostLooks = std::size_t(1) << 24;
 
@@ -34,251 +34,295 @@ constexpr std::uint32_t FoursOfList = KeyCells::MaxCandidates / 4;
 constexpr int GridLevel = 4;
 static_assert(1 << GridLevel == KeyCells::Grid, "grids are cells of that level");
 
-glm::dvec3 nearestPoint(const KeySegment& segment, const glm::dvec3& place)
-{
-    const glm::dvec3 along = segment.second - segment.first;
-    const double square = glm::dot(along, along);
-    if (!(square > 0.0))
-        return segment.first;
-    return segment.first +
-           std::clamp(glm::dot(place - segment.first, along) / square, 0.0, 1.0) * along;
-}
+constexpr std::size_t MostRivals = 4;
 
-/// A cube and the segments that may be the nearest ones in it.
-struct Cell
-{
-    glm::dvec3 center{0.0};
-    double half = 0.0;
-    int level = 0;
-    int vain = 0;          ///< Divisions in a row that have left as many candidates.
-    glm::ivec3 place{0};   ///< In cells of its level.
-    std::size_t index = 0; ///< Where it is stored, from GridLevel on.
-    std::vector<std::uint32_t> candidates;
-
-    Cell part(int octant) const
-    {
-        Cell part;
-        part.half = 0.5 * half;
-        part.level = level + 1;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-            const int bit = octant >> axis & 1;
-            part.center[axis] = center[axis] + (bit ? part.half : -part.half);
-            part.place[axis] = 2 * place[axis] + bit;
-        }
-        return part;
-    }
-};
-
-/// Chooses of a larger cell's candidates.
-class Choice
+/// Segments as the search of candidates reads them.
+class Candidates
 {
 public:
-    Choice(const std::vector<KeySegment>& segments, const Cell& cell, double slack)
-        : _segments(segments), _center(cell.center), _reach(cell.half + slack)
+    std::size_t size() const { return _lines.size(); }
+
+    explicit Candidates(const std::vector<KeySegment>& segments)
     {
+        _lines.reserve(segments.size());
+        for (const KeySegment& segment : segments)
+        {
+            const glm::dvec3 along = segment.second - segment.first;
+            const double square = glm::dot(along, along);
+            _lines.push_back({segment.first, along, square > 0.0 ? 1.0 / square : 0.0});
+            _arePoints = _arePoints && !(square > 0.0);
+        }
     }
 
-    std::vector<std::uint32_t> from(const std::vector<std::uint32_t>& candidates)
+    /// Of `from`, appends to `chosen` those that may be the nearest one within `reach` of the
+    /// middle along each axis.
+    void choose(const std::uint32_t* from, std::size_t count, const glm::dvec3& middle,
+                double reach, std::vector<std::uint32_t>& chosen)
     {
-        const double across = 2.0 * std::sqrt(3.0) * _reach;
-        double least = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t candidate : candidates)
-        {
-            const Near near = look(candidate);
-            least = std::min(least, near.distance);
-            if (near.distance <= least + across)
-                _near.push_back(near);
-        }
+        findNear(from, count, middle, 2.0 * std::sqrt(3.0) * reach);
         const std::size_t rivals = std::min<std::size_t>(_near.size(), MostRivals);
         std::partial_sort(_near.begin(), _near.begin() + std::ptrdiff_t(rivals), _near.end(),
-                          [](const Near& a, const Near& b) { return a.distance < b.distance; });
-        std::vector<std::uint32_t> chosen;
+                          [](const Near& a, const Near& b) { return a.square < b.square; });
+        _numRivals = 0;
         for (const Near& near : _near)
-            if (near.distance <= least + across && !isBeaten(near))
-            {
-                chosen.push_back(near.segment);
-                if (_rivals.size() < MostRivals) // the nearest ones beat most of the others
-                    addRival(near);
-            }
-        return chosen;
+        {
+            const bool isBeaten =
+                _arePoints ? isBeatenByPoint(near, reach) : isBeatenByLine(near, middle, reach);
+            if (isBeaten)
+                continue;
+            chosen.push_back(near.segment);
+            if (_numRivals < MostRivals) // the nearest ones beat most of the others
+                addRival(near, middle, reach);
+        }
     }
 
 private:
-    static constexpr std::size_t MostRivals = 4;
+    struct Line
+    {
+        glm::dvec3 first, along;
+        double inverse; ///< 1 / the square of the length; 0 for a point.
+
+        glm::dvec3 nearestTo(const glm::dvec3& place) const
+        {
+            return first + std::clamp(glm::dot(place - first, along) * inverse, 0.0, 1.0) * along;
+        }
+    };
 
     /// What a segment is from the middle of the cell.
     struct Near
     {
-        double distance = 0.0;
-        glm::dvec3 place{0.0}; ///< The segment's.
+        double square = 0.0; ///< Of its distance.
         std::uint32_t segment = 0;
-        bool isPoint = false;
     };
 
     struct Rival
     {
-        Near near;
+        double square = 0.0;
+        glm::dvec3 place{0.0};
         std::array<double, 8> distances; ///< From the corners.
     };
 
-    Near look(std::uint32_t index) const
+    /// Those that are no more than `across` farther than the nearest one.
+    void findNear(const std::uint32_t* from, std::size_t count, const glm::dvec3& middle,
+                  double across)
     {
-        const KeySegment& segment = _segments[index];
-        const glm::dvec3 place = nearestPoint(segment, _center);
-        return {glm::length(_center - place), place, index, segment.first == segment.second};
-    }
-
-    void addRival(const Near& near)
-    {
-        Rival rival{near, {}};
-        for (int i = 0; i < 8; ++i)
+        _squares.resize(count);
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count; ++i)
         {
-            glm::dvec3 corner = _center;
-            for (int axis = 0; axis < 3; ++axis)
-                corner[axis] += i >> axis & 1 ? _reach : -_reach;
-            rival.distances[std::size_t(i)] =
-                glm::length(corner - nearestPoint(_segments[near.segment], corner));
+            const Line& line = _lines[from[i]];
+            const glm::dvec3 away = middle - (_arePoints ? line.first : line.nearestTo(middle));
+            _squares[i] = glm::dot(away, away);
+            least = std::min(least, _squares[i]);
         }
-        _rivals.push_back(rival);
+        const double bound = std::sqrt(least) + across;
+        _near.clear();
+        for (std::size_t i = 0; i < count; ++i)
+            if (_squares[i] <= bound * bound)
+                _near.push_back({_squares[i], from[i]});
     }
 
-    bool isBeaten(const Near& near) const
+    void addRival(const Near& near, const glm::dvec3& middle, double reach)
     {
-        return std::any_of(_rivals.begin(), _rivals.end(),
-                           [&](const Rival& rival)
-                           {
-                               return near.isPoint && rival.near.isPoint
-                                          ? isBeatenByPoint(near, rival.near)
-                                          : isBeatenByLine(near, rival);
-                           });
+        const Line& line = _lines[near.segment];
+        Rival& rival = _rivals[_numRivals++];
+        rival.square = near.square;
+        rival.place = line.first;
+        for (int i = 0; i < 8 && !_arePoints; ++i)
+        {
+            const glm::dvec3 corner =
+                middle + reach * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+            rival.distances[std::size_t(i)] = glm::length(corner - line.nearestTo(corner));
+        }
     }
 
     /// The difference of squared distances is linear.
-    bool isBeatenByPoint(const Near& near, const Near& rival) const
+    bool isBeatenByPoint(const Near& near, double reach) const
     {
-        const glm::dvec3 apart = glm::abs(near.place - rival.place);
-        return near.distance * near.distance - rival.distance * rival.distance >=
-               2.0 * _reach * (apart.x + apart.y + apart.z);
+        for (std::size_t i = 0; i < _numRivals; ++i)
+        {
+            const glm::dvec3 apart = glm::abs(_lines[near.segment].first - _rivals[i].place);
+            if (near.square - _rivals[i].square >= 2.0 * reach * (apart.x + apart.y + apart.z))
+                return true;
+        }
+        return false;
     }
 
     // The distance to a segment is not less than that to the plane through its point that is
     // nearest to the cell's middle, across the way there. This less the distance to the rival is
     // concave, so it has its least value at a corner.
-    bool isBeatenByLine(const Near& near, const Rival& rival) const
+    bool isBeatenByLine(const Near& near, const glm::dvec3& middle, double reach) const
     {
-        if (!(near.distance > 0.0))
+        if (_numRivals == 0 || !(near.square > 0.0))
             return false;
-        const glm::dvec3 step = (_center - near.place) * (_reach / near.distance);
+        const double distance = std::sqrt(near.square);
+        const glm::dvec3 step =
+            (middle - _lines[near.segment].nearestTo(middle)) * (reach / distance);
+        std::array<double, 8> planes;
         for (int i = 0; i < 8; ++i)
-        {
-            const double plane = near.distance + (i & 1 ? step.x : -step.x) +
-                                 (i & 2 ? step.y : -step.y) + (i & 4 ? step.z : -step.z);
-            if (plane < rival.distances[std::size_t(i)])
-                return false;
-        }
-        return true;
+            planes[std::size_t(i)] = distance + (i & 1 ? step.x : -step.x) +
+                                     (i & 2 ? step.y : -step.y) + (i & 4 ? step.z : -step.z);
+        return std::any_of(_rivals.begin(), _rivals.begin() + std::ptrdiff_t(_numRivals),
+                           [&](const Rival& rival)
+                           {
+                               for (std::size_t i = 0; i < 8; ++i)
+                                   if (planes[i] < rival.distances[i])
+                                       return false;
+                               return true;
+                           });
     }
 
-    const std::vector<KeySegment>& _segments;
-    const glm::dvec3 _center;
-    const double _reach; ///< From the middle to the sides.
+    std::vector<Line> _lines;
+    bool _arePoints = true;
+    std::vector<double> _squares;
     std::vector<Near> _near;
-    std::vector<Rival> _rivals;
+    std::array<Rival, MostRivals> _rivals;
+    std::size_t _numRivals = 0;
 };
 
-/// Fills the cells of one grid.
+/// A cube and the segments that may be the nearest ones in it.
+struct Cell
+{
+    glm::ivec3 place{0};              ///< In cells of its level.
+    int vain = 0;                     ///< Divisions in a row that have left as many candidates.
+    std::size_t index = 0;            ///< Where it is stored, from GridLevel on.
+    std::size_t first = 0, count = 0; ///< Of its level's candidates.
+};
+
+/// Fills the cells of one grid, level by level.
 class Filler
 {
 public:
-    Filler(const std::vector<KeySegment>& segments, KeyCells::Root& root,
+    /// What lies within `inner` wholly is never asked for.
+    Filler(Candidates& candidates, const KeyCells::Root& root, const KeyCells::Root* inner,
            std::vector<std::int32_t>& cells)
-        : _segments(segments), _root(root), _cells(cells), _most(cells.size() + MostCells)
+        : _candidates(candidates), _root(root), _inner(inner), _cells(cells),
+          _mostCells(cells.size() + MostCells)
     {
     }
 
-    /// What lies within `inner` wholly is never asked for.
-    void run(const KeyCells::Root* inner)
+    /// Returns which segments may be the nearest ones outside of the grid: on the way from there
+    /// to one it stays the nearest one, so it is a candidate where the way enters.
+    std::vector<std::uint32_t> run(std::vector<std::uint32_t> segments)
     {
-        _root.first = static_cast<std::int32_t>(_cells.size());
+        std::vector<bool> isOuter(_candidates.size());
         _cells.resize(_cells.size() +
                       std::size_t(KeyCells::Grid * KeyCells::Grid * KeyCells::Grid));
-        Cell whole;
-        whole.half = 0.5 * _root.size;
-        whole.center = _root.low + whole.half;
-        whole.candidates.resize(_segments.size());
-        for (std::size_t i = 0; i < _segments.size(); ++i)
-            whole.candidates[i] = static_cast<std::uint32_t>(i);
-        _open.push_back(std::move(whole));
-        while (!_open.empty())
+        std::vector<Cell> cells(1);
+        cells.front().count = segments.size();
+        for (_level = 0; !cells.empty(); ++_level)
         {
-            const Cell cell = std::move(_open.front());
-            _open.pop_front();
-            if (!inner || !isWithin(cell, *inner))
-                settle(cell);
+            _half = std::ldexp(0.25 * _root.size, -_level);
+            _next.clear();
+            _nextChosen.clear();
+            for (const Cell& cell : cells)
+                settle(cell, segments.data() + cell.first, isOuter);
+            std::swap(cells, _next);
+            std::swap(segments, _nextChosen);
         }
-        _cells.resize((_cells.size() + 3) / 4 * 4);
-        for (const auto& [index, list] : _lists)
-            close(index, list);
+        closeLists();
+        segments.clear();
+        for (std::size_t i = 0; i < isOuter.size(); ++i)
+            if (isOuter[i])
+                segments.push_back(static_cast<std::uint32_t>(i));
+        return segments;
     }
 
 private:
-    static bool isWithin(const Cell& cell, const KeyCells::Root& root)
+    static bool isWithin(const glm::dvec3& middle, double half, const KeyCells::Root& root)
     {
-        const glm::dvec3 low = cell.center - cell.half - root.low;
+        const glm::dvec3 low = middle - half - root.low;
         return std::min({low.x, low.y, low.z}) >= 0.0 &&
-               std::max({low.x, low.y, low.z}) + 2.0 * cell.half <= root.size;
+               std::max({low.x, low.y, low.z}) + 2.0 * half <= root.size;
     }
 
-    void settle(const Cell& cell)
+    bool isAtTheSide(const Cell& cell) const
     {
-        const bool isDone = cell.candidates.size() <= Enough || cell.vain >= MostVain ||
-                            cell.level == KeyCells::Levels || _cells.size() + 8 > _most ||
-                            _looks > MostLooks;
-        if (cell.level >= GridLevel && isDone)
+        const int last = (1 << _level) - 1;
+        for (int axis = 0; axis < 3; ++axis)
+            if (cell.place[axis] == 0 || cell.place[axis] == last)
+                return true;
+        return false;
+    }
+
+    void settle(const Cell& cell, const std::uint32_t* segments, std::vector<bool>& isOuter)
+    {
+        const bool isCut = _looks > MostLooks;
+        if ((_level == GridLevel || (_level < GridLevel && isCut)) && isAtTheSide(cell))
+            for (std::size_t i = 0; i < cell.count; ++i)
+                isOuter[segments[i]] = true;
+        const bool isDone = isCut || cell.count <= Enough || cell.vain >= MostVain ||
+                            _level == KeyCells::Levels || _cells.size() + 8 > _mostCells;
+        if (_level < GridLevel ? !isCut : !isDone)
+            return divide(cell, segments);
+        if (_level >= GridLevel && cell.count > 0 && cell.count <= KeyCells::MaxCandidates)
         {
-            if (!cell.candidates.empty() && cell.candidates.size() <= KeyCells::MaxCandidates)
-                _lists.emplace_back(cell.index, cell.candidates);
-            return; // else it is not told
-        }
-        if (cell.level >= GridLevel)
+            _lists.push_back({cell.index, _listed.size(), cell.count});
+            _listed.insert(_listed.end(), segments, segments + cell.count);
+        } // else it is not told
+    }
+
+    void divide(const Cell& cell, const std::uint32_t* segments)
+    {
+        if (_level >= GridLevel)
         {
             _cells[cell.index] = static_cast<std::int32_t>(_cells.size());
             _cells.resize(_cells.size() + 8);
         }
         for (int octant = 0; octant < 8; ++octant)
         {
-            Cell part = cell.part(octant);
-            _looks += cell.candidates.size();
-            part.candidates = Choice(_segments, part, Slack * _root.size).from(cell.candidates);
-            part.vain = part.candidates.size() == cell.candidates.size() ? cell.vain + 1 : 0;
-            if (part.level == GridLevel)
-                part.index =
-                    std::size_t(_root.first) +
-                    std::size_t((part.place.z * KeyCells::Grid + part.place.y) * KeyCells::Grid +
-                                part.place.x);
-            else if (part.level > GridLevel)
-                part.index = std::size_t(_cells[cell.index]) + std::size_t(octant);
-            _open.push_back(std::move(part));
+            Cell part;
+            part.place = 2 * cell.place + glm::ivec3(octant & 1, octant >> 1 & 1, octant >> 2 & 1);
+            part.first = _nextChosen.size();
+            const glm::dvec3 middle = _root.low + (2.0 * glm::dvec3(part.place) + 1.0) * _half;
+            if (_inner && isWithin(middle, _half, *_inner))
+                continue;
+            _looks += cell.count;
+            _candidates.choose(segments, cell.count, middle, _half + Slack * _root.size,
+                               _nextChosen);
+            part.count = _nextChosen.size() - part.first;
+            part.vain = part.count == cell.count ? cell.vain + 1 : 0;
+            const glm::ivec3& at = part.place;
+            part.index =
+                _level >= GridLevel
+                    ? std::size_t(_cells[cell.index]) + std::size_t(octant)
+                    : std::size_t(_root.first) + // of the grid's level alone
+                          std::size_t((at.z * KeyCells::Grid + at.y) * KeyCells::Grid + at.x);
+            _next.push_back(part);
         }
     }
 
-    void close(std::size_t index, const std::vector<std::uint32_t>& list)
+    void closeLists()
     {
-        const std::size_t fours = (list.size() + 3) / 4;
-        _cells[index] =
-            -1 - static_cast<std::int32_t>(FoursOfList * (_cells.size() / 4) + fours - 1);
-        _cells.insert(_cells.end(), list.begin(), list.end());
-        _cells.resize(_cells.size() + 4 * fours - list.size(), _cells.back());
+        _cells.resize((_cells.size() + 3) / 4 * 4);
+        for (const List& list : _lists)
+        {
+            const std::size_t fours = (list.count + 3) / 4;
+            _cells[list.index] =
+                -1 - static_cast<std::int32_t>(FoursOfList * (_cells.size() / 4) + fours - 1);
+            const auto first = _listed.begin() + std::ptrdiff_t(list.first);
+            _cells.insert(_cells.end(), first, first + std::ptrdiff_t(list.count));
+            _cells.resize(_cells.size() + 4 * fours - list.count, _cells.back());
+        }
     }
 
-    const std::vector<KeySegment>& _segments;
-    KeyCells::Root& _root;
+    struct List
+    {
+        std::size_t index, first, count;
+    };
+
+    Candidates& _candidates;
+    const KeyCells::Root& _root;
+    const KeyCells::Root* const _inner;
     std::vector<std::int32_t>& _cells;
-    const std::size_t _most;
+    const std::size_t _mostCells;
+    int _level = 0;
+    double _half = 0.0; ///< Of the cells of the next level.
     std::size_t _looks = 0;
-    std::deque<Cell> _open;
-    std::vector<std::pair<std::size_t, std::vector<std::uint32_t>>> _lists;
+    std::vector<Cell> _next;
+    std::vector<std::uint32_t> _nextChosen;
+    std::vector<List> _lists;
+    std::vector<std::uint32_t> _listed;
 };
 
 } // namespace
@@ -297,14 +341,17 @@ KeyCells::KeyCells(const std::vector<KeySegment>& segments)
     const glm::dvec3 extent = high - low;
     const double widest = std::max({extent.x, extent.y, extent.z});
     _cells.push_back(0); // index 0 says nothing
-    const Root* inner = nullptr;
+    Candidates candidates(_segments);
+    std::vector<std::uint32_t> outer(_segments.size());
+    std::iota(outer.begin(), outer.end(), 0u);
     for (std::size_t i = 0; i < _roots.size(); ++i)
     {
         Root& root = _roots[i];
         root.size = (widest > 0.0 ? widest : 1.0) * (i == 0 ? InnerWidth : OuterWidth);
         root.low = 0.5 * (low + high) - 0.5 * root.size;
-        Filler(_segments, root, _cells).run(inner);
-        inner = &root;
+        root.first = static_cast<std::int32_t>(_cells.size());
+        Filler filler(candidates, root, i > 0 ? &_roots[i - 1] : nullptr, _cells);
+        outer = filler.run(std::move(outer));
     }
 }
 

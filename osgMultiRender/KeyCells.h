@@ -31,7 +31,8 @@ public:
     };
 
     KeyCells() = default;
-    /// Some 50 ms for 10,000. With more than MaxSegments, or none, nothing is told.
+    /// Some 100 ms for 10,000 points, up to a second for as many lines. With more than MaxSegments,
+    /// or none, nothing is told.
     explicit KeyCells(const std::vector<KeySegment>& segments);
 
     /// The distance of the nearest segment of the point's cell; none where that is not told.
