@@ -81,13 +81,15 @@ void WalkOutputRows::gather(const PixelRect& area, int level, const LevelRows& r
     const bool inside = area.x >= 0 && area.x + area.width <= width;
     const std::size_t rowBytes = std::size_t(area.width) * channels;
     member.rows.resize(std::size_t(area.height));
-    member.pixels.resize(inside ? 0 : rowBytes * std::size_t(area.height));
+    member.pixels.resize(rowBytes * std::size_t(area.height));
     for (std::int64_t y = 0; y < area.height; ++y)
     {
         const std::int64_t from = std::clamp<std::int64_t>(area.y + y, 0, height - 1);
         if (inside)
         {
-            member.rows[std::size_t(y)] = rows.at(area.x, from);
+            std::uint8_t* const to = member.pixels.data() + rowBytes * std::size_t(y);
+            std::memcpy(to, rows.at(area.x, from), rowBytes);
+            member.rows[std::size_t(y)] = to;
             continue;
         }
         std::uint8_t* const row = member.pixels.data() + rowBytes * std::size_t(y);
