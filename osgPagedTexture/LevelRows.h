@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace osgPagedTexture
 {
@@ -16,7 +16,8 @@ public:
     LevelRows(std::int64_t x, std::int64_t width, std::int64_t y, std::int64_t capacity,
               int channels)
         : _x(x), _width(width), _end(y), _capacity(capacity), _channels(channels),
-          _bytes(std::size_t(width) * std::size_t(capacity) * std::size_t(channels))
+          _bytes(
+              new std::uint8_t[std::size_t(width) * std::size_t(capacity) * std::size_t(channels)])
     {
     }
 
@@ -30,11 +31,11 @@ public:
 
     std::uint8_t* row(std::int64_t y)
     {
-        return _bytes.data() + std::size_t(y % _capacity) * rowBytes();
+        return _bytes.get() + std::size_t(y % _capacity) * rowBytes();
     }
     const std::uint8_t* row(std::int64_t y) const
     {
-        return _bytes.data() + std::size_t(y % _capacity) * rowBytes();
+        return _bytes.get() + std::size_t(y % _capacity) * rowBytes();
     }
     /// The pixel in column `x` of the level.
     std::uint8_t* at(std::int64_t x, std::int64_t y)
@@ -51,7 +52,8 @@ private:
 
     std::int64_t _x, _width, _end, _capacity;
     int _channels;
-    std::vector<std::uint8_t> _bytes;
+    /// Not zeroed: whole bands of it would be touched in vain, by one thread.
+    std::unique_ptr<std::uint8_t[]> _bytes;
 };
 
 } // namespace osgPagedTexture

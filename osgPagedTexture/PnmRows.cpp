@@ -74,6 +74,10 @@ public:
           _row(channels == settings.channels ? 0 : std::size_t(settings.width) * channels),
           _file(std::fopen(path.c_str(), "rb"), std::fclose)
     {
+        if (_file && std::size_t(settings.width) * channels >= BUFSIZ)
+        {
+            std::setvbuf(_file.get(), nullptr, _IONBF, 0); // a row is one read, and no copy
+        }
         check(_file && std::fseek(_file.get(), static_cast<long>(place), SEEK_SET) == 0);
     }
 
