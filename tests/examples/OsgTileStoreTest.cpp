@@ -60,8 +60,9 @@ TEST(OsgTileStoreTest, wrongWordsAreNamedInOneLineWithStatusTwo)
         {{"paint"}, "'paint' is no subcommand"},
         {{"info"}, "needs STORE"},
         {{"info", "a", "b"}, "'b' is one name too many"},
-        {{"verify", "--loud", "a"}, "'--loud' is no option"},
-        {{"verify", "a", "--most"}, "--most needs a value"},
+        {{"verify", "--loud", "a"}, "unknown option '--loud'"},
+        {{"verify", "a", "--most"}, "--most: 1 required value missing"},
+        {{"verify", "a", "--json=5"}, "--json"},
         {{"verify", "a", "--most", "9x"}, "--most needs a whole number"},
         {{"extract", "a", "b", "--channels", "2"}, "--channels needs 1, 3 or 4"},
     };
