@@ -62,7 +62,7 @@ TEST(OsgTileStoreTest, wrongWordsAreNamedInOneLineWithStatusTwo)
         {{"info", "a", "b"}, "'b' is one name too many"},
         {{"verify", "--loud", "a"}, "unknown option '--loud'"},
         {{"verify", "a", "--most"}, "--most: 1 required value missing"},
-        {{"verify", "a", "--json=5"}, "--json"},
+        {{"verify", "a", "--json=5"}, "json was given"},
         {{"verify", "a", "--most", "9x"}, "--most needs a whole number"},
         {{"extract", "a", "b", "--channels", "2"}, "--channels needs 1, 3 or 4"},
     };
