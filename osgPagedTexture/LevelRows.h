@@ -16,8 +16,7 @@ public:
     LevelRows(std::int64_t x, std::int64_t width, std::int64_t y, std::int64_t capacity,
               int channels)
         : _x(x), _width(width), _end(y), _capacity(capacity), _channels(channels),
-          _bytes(
-              new std::uint8_t[std::size_t(width) * std::size_t(capacity) * std::size_t(channels)])
+          _bytes(allocate(std::size_t(width) * std::size_t(capacity) * std::size_t(channels)))
     {
     }
 
@@ -48,12 +47,17 @@ public:
     }
 
 private:
+    using Bytes = std::unique_ptr<std::uint8_t[], void (*)(void*)>;
+
+    /// Not zeroed, which one thread would do for all; in large pages of memory, since each row of a
+    /// tile lies in another small one.
+    static Bytes allocate(std::size_t count);
+
     std::size_t rowBytes() const { return std::size_t(_width) * std::size_t(_channels); }
 
     std::int64_t _x, _width, _end, _capacity;
     int _channels;
-    /// Not zeroed: whole bands of it would be touched in vain, by one thread.
-    std::unique_ptr<std::uint8_t[]> _bytes;
+    Bytes _bytes;
 };
 
 } // namespace osgPagedTexture
