@@ -49,10 +49,14 @@ void halvePlain(const std::uint8_t* upper, const std::uint8_t* lower, std::size_
         {
             means[i] = static_cast<std::uint8_t>((sums[i] + sums[i + Channels] + 2) >> 2);
         }
-        for (std::size_t x = 0; x < count; ++x, half += Channels)
+        // A byte more than a texel of three has: the next one overwrites it.
+        constexpr std::size_t moved = Channels == 3 ? 4 : Channels;
+        for (std::size_t x = 0; x + 1 < count; ++x, half += Channels)
         {
-            std::memcpy(half, means + 2 * Channels * x, Channels);
+            std::memcpy(half, means + 2 * Channels * x, moved);
         }
+        std::memcpy(half, means + 2 * Channels * (count - 1), Channels);
+        half += Channels;
         upper += samples;
         lower += samples;
         texels -= count;

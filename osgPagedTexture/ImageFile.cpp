@@ -4,6 +4,7 @@
 #include <osgPagedTexture/FileBytes.h>
 #include <osgPagedTexture/JpegFile.h>
 #include <osgPagedTexture/OiioModule.h>
+#include <osgPagedTexture/PhotoRows.h>
 
 namespace osgPagedTexture
 {
@@ -13,11 +14,15 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool
     // A JPEG's header lies within this but for giant profiles; then all of it is read.
     constexpr std::size_t headBytes = 64 << 10;
     const FileHead head = readFileHead(path, headBytes);
+    ImageInfo info;
+    if (readPnmInfo(head.bytes, head.fileBytes, limits, info))
+    {
+        return info;
+    }
     if (!isJpeg(head.bytes))
     {
         return oiioFunctions().readInfo(path, head.fileBytes, limits, lookAtAlpha);
     }
-    ImageInfo info;
     if (!readJpegInfo(head.bytes, head.fileBytes, path, limits, info))
     {
         const std::string all = readFileBytes(path);

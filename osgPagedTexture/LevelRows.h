@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 namespace osgPagedTexture
 {
@@ -16,7 +16,7 @@ public:
     LevelRows(std::int64_t x, std::int64_t width, std::int64_t y, std::int64_t capacity,
               int channels)
         : _x(x), _width(width), _end(y), _capacity(capacity), _channels(channels),
-          _bytes(std::size_t(width) * std::size_t(capacity) * std::size_t(channels))
+          _bytes(allocate(std::size_t(width) * std::size_t(capacity) * std::size_t(channels)))
     {
     }
 
@@ -30,11 +30,11 @@ public:
 
     std::uint8_t* row(std::int64_t y)
     {
-        return _bytes.data() + std::size_t(y % _capacity) * rowBytes();
+        return _bytes.get() + std::size_t(y % _capacity) * rowBytes();
     }
     const std::uint8_t* row(std::int64_t y) const
     {
-        return _bytes.data() + std::size_t(y % _capacity) * rowBytes();
+        return _bytes.get() + std::size_t(y % _capacity) * rowBytes();
     }
     /// The pixel in column `x` of the level.
     std::uint8_t* at(std::int64_t x, std::int64_t y)
@@ -47,11 +47,17 @@ public:
     }
 
 private:
+    using Bytes = std::unique_ptr<std::uint8_t[], void (*)(void*)>;
+
+    /// Not zeroed, which one thread would do for all; in large pages of memory, since each row of a
+    /// tile lies in another small one.
+    static Bytes allocate(std::size_t count);
+
     std::size_t rowBytes() const { return std::size_t(_width) * std::size_t(_channels); }
 
     std::int64_t _x, _width, _end, _capacity;
     int _channels;
-    std::vector<std::uint8_t> _bytes;
+    Bytes _bytes;
 };
 
 } // namespace osgPagedTexture

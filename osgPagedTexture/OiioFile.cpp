@@ -91,7 +91,8 @@ DecodedImage readFile(const std::string& path, std::uint64_t fileBytes,
 extern "C" OSGPAGEDTEXTURE_OIIO_ENTRY const osgPagedTexture::OiioFunctions*
 osgPagedTexture::osgPagedTextureOiio()
 {
-    static constexpr OiioFunctions functions{oiio::readInfo, oiio::readFile, oiio::openRows,
-                                             oiio::decodeTile, oiio::openWriter};
+    static constexpr OiioFunctions functions{oiio::readInfo,   oiio::readFile,   oiio::openRows,
+                                             oiio::decodeTile, oiio::openWriter, oiio::writePicture,
+                                             oiio::writePages};
     return &functions;
 }

@@ -24,4 +24,7 @@ Pixels decodeTile(const std::string& bytes, const std::string& name);
 std::unique_ptr<PictureWriter> openWriter(const std::string& path, int width, int height,
                                           int channels);
 
+void writePicture(const std::string& path, const Pixels& pixels, int quality);
+void writePages(const std::string& path, const std::vector<PictureLayer>& layers);
+
 } // namespace osgPagedTexture::oiio

@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PhotoRows.h>
+#include <osgPagedTexture/PictureFile.h>
 
 #include <cstdint>
 #include <memory>
@@ -36,6 +37,9 @@ struct OiioFunctions
     Pixels (*decodeTile)(const std::string& bytes, const std::string& name);
     std::unique_ptr<PictureWriter> (*openWriter)(const std::string& path, int width, int height,
                                                  int channels);
+    /// As writePictureFile() and writeLayers(), in place. Throw std::runtime_error.
+    void (*writePicture)(const std::string& path, const Pixels& pixels, int quality);
+    void (*writePages)(const std::string& path, const std::vector<PictureLayer>& layers);
 };
 
 /// Throws ImageError::Kind::Unsupported where the module cannot be loaded.

@@ -210,12 +210,9 @@ std::unique_ptr<PhotoRows> openPhotoRows(const std::string& path, const PhotoRow
     {
         return openJpegRows(path, head.fileBytes, settings);
     }
-    if (head.bytes == "P6" || head.bytes == "P5")
+    if (auto rows = openPnmRows(path, head.fileBytes, settings))
     {
-        if (auto rows = openPnmRows(path, head.fileBytes, settings))
-        {
-            return rows;
-        }
+        return rows;
     }
     if (auto rows = oiioFunctions().openRows(path, head.fileBytes, settings))
     {

@@ -4,6 +4,7 @@
 #include <osgPagedTexture/FileBytes.h>
 #include <osgPagedTexture/ImageFile.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <vector>
@@ -36,6 +37,33 @@ std::size_t parseHeader(const std::string& head, std::int64_t (&numbers)[3])
     return closed && numbers[0] > 0 && numbers[1] > 0 ? at + 1 : 0;
 }
 
+struct PnmHead
+{
+    std::int64_t width = 0, height = 0;
+    int channels = 0;
+    std::size_t pixels = 0; ///< Where they start; 0 where the file is no whole PNM of 8 bits.
+};
+
+PnmHead readHead(const std::string& bytes, std::uint64_t fileBytes)
+{
+    PnmHead head;
+    if (bytes.compare(0, 2, "P6") != 0 && bytes.compare(0, 2, "P5") != 0)
+    {
+        return head;
+    }
+    std::int64_t numbers[3];
+    const std::size_t place = parseHeader(bytes, numbers);
+    head.width = numbers[0];
+    head.height = numbers[1];
+    head.channels = bytes[1] == '6' ? 3 : 1;
+    constexpr std::int64_t maxSide = 1 << 30; // so that the product below fits in 64 bits
+    const bool whole =
+        place > 0 && numbers[2] == 255 && std::max(head.width, head.height) <= maxSide &&
+        fileBytes >= place + std::uint64_t(head.width) * std::uint64_t(head.height * head.channels);
+    head.pixels = whole ? place : 0;
+    return head;
+}
+
 /// Uncompressed pixels, which are only copied.
 class PnmRows : public PhotoRows
 {
@@ -46,6 +74,10 @@ public:
           _row(channels == settings.channels ? 0 : std::size_t(settings.width) * channels),
           _file(std::fopen(path.c_str(), "rb"), std::fclose)
     {
+        if (_file && std::size_t(settings.width) * channels >= BUFSIZ)
+        {
+            std::setvbuf(_file.get(), nullptr, _IONBF, 0); // a row is one read, and no copy
+        }
         check(_file && std::fseek(_file.get(), static_cast<long>(place), SEEK_SET) == 0);
     }
 
@@ -83,21 +115,33 @@ private:
 
 } // namespace
 
+bool readPnmInfo(const std::string& head, std::uint64_t fileBytes, const ImageLimits& limits,
+                 ImageInfo& info)
+{
+    const PnmHead pnm = readHead(head, fileBytes);
+    const std::uint64_t pixels = std::uint64_t(pnm.width) * std::uint64_t(pnm.height);
+    if (pnm.pixels == 0 || pixels > limits.maxPixels || pixels * pnm.channels > limits.maxBytes)
+    {
+        return false;
+    }
+    info.width = static_cast<int>(pnm.width);
+    info.height = static_cast<int>(pnm.height);
+    info.channels = pnm.channels;
+    info.format = "pnm";
+    info.fileBytes = fileBytes;
+    return true;
+}
+
 std::unique_ptr<PhotoRows> openPnmRows(const std::string& path, std::uint64_t fileBytes,
                                        const PhotoRowsSettings& settings)
 {
     constexpr std::size_t headBytes = 1024;
-    const std::string head = readFileHead(path, headBytes).bytes;
-    std::int64_t numbers[3];
-    const std::size_t place = parseHeader(head, numbers);
-    const int channels = head.compare(0, 2, "P6") == 0 ? 3 : 1;
-    if (place == 0 || numbers[2] != 255 || numbers[0] != settings.width ||
-        numbers[1] != settings.height ||
-        fileBytes < place + std::uint64_t(numbers[0]) * numbers[1] * channels)
+    const PnmHead head = readHead(readFileHead(path, headBytes).bytes, fileBytes);
+    if (head.pixels == 0 || head.width != settings.width || head.height != settings.height)
     {
         return nullptr;
     }
-    return std::make_unique<PnmRows>(path, place, channels, settings);
+    return std::make_unique<PnmRows>(path, head.pixels, head.channels, settings);
 }
 
 } // namespace osgPagedTexture

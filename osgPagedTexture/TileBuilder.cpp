@@ -275,17 +275,4 @@ TileData TileBuilder::encode(const std::uint8_t* const* rows, int width, int hei
                     kept ? *_content->keptEncoder : *_content->encoder);
 }
 
-bool TileBuilder::isOccupied(const TileKey& key) const
-{
-    const AtlasLayout& layout = _content->layout;
-    return std::any_of(layout.photos.begin(), layout.photos.end(),
-                       [&](const AtlasPhoto& photo)
-                       {
-                           const TileRange touched =
-                               _content->grid.getTouched(layout.getCovered(photo), key.level);
-                           return touched.x <= key.x && key.x <= touched.lastX &&
-                                  touched.y <= key.y && key.y <= touched.lastY;
-                       });
-}
-
 } // namespace osgPagedTexture

@@ -99,9 +99,6 @@ public:
     /// store itself.
     TileData encode(const std::uint8_t* const* rows, int width, int height, bool kept = false);
 
-    /// Whether a photograph, or its padding, is in a tile. Looks at all photographs.
-    bool isOccupied(const TileKey& key) const;
-
 private:
     struct Content;
     std::unique_ptr<Content> _content;

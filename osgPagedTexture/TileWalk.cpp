@@ -91,7 +91,7 @@ TileWalk::~TileWalk() = default;
 /// Makes the rows of a level that the rows of the finer one now allow.
 void TileWalk::makeCoarser(int level)
 {
-    constexpr std::int64_t columnsAtATime = 2048;
+    constexpr std::int64_t columnsAtATime = 512;
     const LevelRows& fine = _rows[level - 1];
     LevelRows& coarse = _rows[level];
     const PixelRect& window = _settings.window;

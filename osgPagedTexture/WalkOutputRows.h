@@ -46,7 +46,7 @@ private:
     {
         std::unique_ptr<TileEncoder> encoder;
         std::vector<const std::uint8_t*> rows;
-        std::vector<std::uint8_t> pixels; ///< Of a tile that reaches beyond the picture.
+        std::vector<std::uint8_t> pixels; ///< Of the tile.
     };
     void gather(const PixelRect& area, int level, const LevelRows& rows, Member& member) const;
 

@@ -97,9 +97,8 @@ public:
         return std::nullopt;
     }
 
-private:
-    /// An option that there is none of is the cause when its value is too many or taken for
-    /// something else, too.
+    /// What is wrong, without the end of the line. An option that there is none of is the cause
+    /// when its value is too many or taken for something else, too.
     std::string describe(const CLI::ParseError& error) const
     {
         const std::vector<std::string> extras = remaining(true);

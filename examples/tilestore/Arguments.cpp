@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "Arguments.h"
 
+#include <examples/commandline/CommandLine.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -34,42 +36,34 @@ std::uint64_t parseBytes(const std::string& text, const std::string& what)
     throw UsageError(what + " needs a size such as 1.5GiB, 200MiB or 1000000, not '" + text + "'");
 }
 
-Arguments::Arguments(const std::vector<std::string>& words, const OptionList& options)
+Arguments::Arguments(std::vector<std::string> words, const OptionList& options)
 {
-    bool onlyFiles = false;
-    for (std::size_t i = 0; i < words.size(); ++i)
+    examples::CommandLine line("", "osgtilestore");
+    line.set_help_flag(); // a subcommand's page is its own
+    for (const Option& option : options)
+        if (option.hasValue)
+            line.add_option(option.name)->take_all()->type_name("value");
+        else
+            line.add_flag(option.name)->disable_flag_override();
+    line.add_option("FILES", _files);
+    try
     {
-        const std::string& word = words[i];
-        if (onlyFiles || word.size() < 2 || word[0] != '-')
-        {
-            _files.push_back(word);
-            continue;
-        }
-        if (word == "--")
-        {
-            onlyFiles = true;
-            continue;
-        }
-        const std::size_t equals = word.find('=');
-        const std::string name = word.substr(0, equals);
-        const auto option = std::find_if(options.begin(), options.end(),
-                                         [&](const Option& each) { return name == each.name; });
-        if (option == options.end())
-            throw UsageError("'" + name + "' is no option; see --help");
-        if (option->hasValue && equals == std::string::npos && i + 1 == words.size())
-            throw UsageError(name + " needs a value; see --help");
-        if (!option->hasValue && equals != std::string::npos)
-            throw UsageError(name + " takes no value; see --help");
-        _values.emplace(name, !option->hasValue             ? std::string()
-                              : equals == std::string::npos ? words[++i]
-                                                            : word.substr(equals + 1));
+        std::reverse(words.begin(), words.end()); // as CLI11 wants them
+        line.parse(words);
     }
+    catch (const CLI::ParseError& error)
+    {
+        throw UsageError(line.describe(error) + "; see --help");
+    }
+    for (const Option& option : options)
+        if (line.count(option.name) > 0)
+            _values.emplace(option.name, line[option.name]->results());
 }
 
 std::optional<std::string> Arguments::find(const std::string& option) const
 {
-    const auto [first, last] = _values.equal_range(option);
-    return first == last ? std::nullopt : std::optional(std::prev(last)->second);
+    const auto found = _values.find(option);
+    return found == _values.end() ? std::nullopt : std::optional(found->second.back());
 }
 
 std::string Arguments::get(const std::string& option, const std::string& standard) const
@@ -79,11 +73,8 @@ std::string Arguments::get(const std::string& option, const std::string& standar
 
 std::vector<std::string> Arguments::all(const std::string& option) const
 {
-    std::vector<std::string> values;
-    const auto [first, last] = _values.equal_range(option);
-    for (auto value = first; value != last; ++value)
-        values.push_back(value->second);
-    return values;
+    const auto found = _values.find(option);
+    return found == _values.end() ? std::vector<std::string>() : found->second;
 }
 
 std::int64_t Arguments::number(const std::string& option, std::int64_t standard, std::int64_t least,

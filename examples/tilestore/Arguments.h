@@ -30,7 +30,7 @@ class Arguments
 {
 public:
     /// Throws UsageError for an unknown option or one without its value.
-    Arguments(const std::vector<std::string>& words, const OptionList& options);
+    Arguments(std::vector<std::string> words, const OptionList& options);
 
     bool has(const std::string& option) const { return _values.count(option) > 0; }
     bool isJson() const { return has("--json"); }
@@ -53,7 +53,7 @@ public:
                                           const std::string& what) const;
 
 private:
-    std::multimap<std::string, std::string> _values; ///< In the order they were given.
+    std::map<std::string, std::vector<std::string>> _values; ///< In the order they were given.
     std::vector<std::string> _files;
 };
 

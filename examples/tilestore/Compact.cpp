@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "PackOptions.h"
 #include "Subcommand.h"
-
-#include <osgPagedTexture/TilePack.h>
 
 #include <cstdio>
 
@@ -27,10 +26,8 @@ room for a second file meanwhile.
 int run(const Arguments& arguments)
 {
     const std::string path = arguments.files(1, 1, "STORE")[0];
-    TilePackWriter::Options options;
-    options.waitSeconds = double(arguments.number("--wait", 0, 0, 86400));
     const std::uint64_t before = TilePackReader(path).getInfo().committedBytes;
-    compactTilePack(path, options);
+    compactTilePack(path, packOptionsOf(arguments));
     const std::uint64_t after = TilePackReader(path).getInfo().committedBytes;
     if (arguments.isJson())
         print({{"bytesBefore", before}, {"bytes", after}});

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "PackOptions.h"
 #include "Subcommand.h"
 
 #include <osgPagedTexture/TileShards.h>
@@ -28,11 +29,8 @@ the former store or the whole new one.
 int run(const Arguments& arguments)
 {
     const std::string path = arguments.files(1, 1, "STORE")[0];
-    TilePackWriter::Options options;
-    options.waitSeconds = double(arguments.number("--wait", 0, 0, 86400));
-    options.durable = !arguments.has("--no-sync");
     const int count = countTileShards(path);
-    const TileMergeReport report = mergeTileShards(path, count, options);
+    const TileMergeReport report = mergeTileShards(path, count, packOptionsOf(arguments));
     if (arguments.isJson())
         print({{"store", path},
                {"shards", count},

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "PackOptions.h"
 #include "Subcommand.h"
 
 #include <osgPagedTexture/AtlasPicture.h>
@@ -95,8 +96,7 @@ TileUpdateSettings settingsOf(const Arguments& arguments)
     settings.keepMissing = arguments.has("--keep-missing") || arguments.has("--watch");
     settings.threads = unsigned(arguments.number("--threads", 0, 0, 1024));
     settings.maxBytes = arguments.bytes("--memory", settings.maxBytes);
-    settings.pack.durable = !arguments.has("--no-sync");
-    settings.pack.waitSeconds = double(arguments.number("--wait", 0, 0, 86400));
+    settings.pack = packOptionsOf(arguments);
     return settings;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <support/ChildProcess.h>
+#include "TileStoreRun.h"
+
 #include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
@@ -21,14 +22,6 @@ namespace
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-
-support::ProcessResult run(const std::vector<std::string>& words)
-{
-    support::ChildProcess process;
-    process.arguments = {OSGKITS_OSGTILESTORE};
-    process.arguments.insert(process.arguments.end(), words.begin(), words.end());
-    return process.run();
-}
 
 std::string bytesOf(const std::string& path)
 {

@@ -12,6 +12,14 @@ namespace fs = std::filesystem;
 namespace
 {
 
+void changeAll(const UpdateSample& sample)
+{
+    for (const AtlasPhoto& photo : sample.layout().photos)
+    {
+        sample.writePhoto(fs::path(photo.path).filename().string(), photo.width, photo.height, 77);
+    }
+}
+
 TileUpdateReport update(const UpdateSample& sample)
 {
     TileUpdateSettings settings;
@@ -83,10 +91,7 @@ TEST_P(TileUpdate, allPhotographsHaveChanged)
 {
     const UpdateSample sample(20, 5, GetParam());
     sample.build();
-    for (const AtlasPhoto& photo : sample.layout().photos)
-    {
-        sample.writePhoto(fs::path(photo.path).filename().string(), photo.width, photo.height, 77);
-    }
+    changeAll(sample);
     const TileUpdateReport report = update(sample);
     EXPECT_EQ(report.changed, 20u);
     EXPECT_NE(report.rebuilt, "");
@@ -97,10 +102,7 @@ TEST_P(TileUpdate, allPhotographsCanBeUpdatedPieceByPiece)
 {
     const UpdateSample sample(20, 5, GetParam());
     sample.build();
-    for (const AtlasPhoto& photo : sample.layout().photos)
-    {
-        sample.writePhoto(fs::path(photo.path).filename().string(), photo.width, photo.height, 77);
-    }
+    changeAll(sample);
     TileUpdateSettings settings;
     settings.rebuildShare = 1e9;
     settings.pack.durable = false;
