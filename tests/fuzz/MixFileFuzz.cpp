@@ -1,30 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a mix file: one error of one line and nothing changed, or a mix that is written and
 // read again as it is.
+#include "fuzz/Require.h"
+
 #include <osgMultiRender/MixFile.h>
 #include <osgMultiRender/MixedScene.h>
 
 #include <osg/Notify>
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 using namespace osgMultiRender;
-
-namespace
-{
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "MixFileFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
-
-} // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
