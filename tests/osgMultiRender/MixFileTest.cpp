@@ -134,7 +134,7 @@ TEST(MixFileTest, whatIsWrongIsOneLineAndChangesNothing)
               "'none'");
     EXPECT_EQ(apply("{\"points\": [[0, 0, 1e999]]}").find("a.mix: the mix is no JSON; "), 0u);
     for (const int depth : {17, 1000000}) // closed, and broken off
-        for (const std::string end : {std::string(std::size_t(depth), ']') + "}", std::string()})
+        for (const std::string& end : {std::string(std::size_t(depth), ']') + "}", std::string()})
         {
             const std::string said =
                 apply("{\"points\": " + std::string(std::size_t(depth), '[') + end);
