@@ -195,8 +195,8 @@ class Filler
 public:
     /// What lies within `inner` wholly is never asked for.
     Filler(Candidates& candidates, const KeyCells::Root& root, const KeyCells::Root* inner,
-           std::vector<std::int32_t>& cells)
-        : _candidates(candidates), _root(root), _inner(inner), _cells(cells),
+           std::vector<std::int32_t>& cells, const std::atomic<bool>* isLeft)
+        : _candidates(candidates), _root(root), _inner(inner), _cells(cells), _isLeft(isLeft),
           _mostCells(cells.size() + MostCells)
     {
     }
@@ -247,7 +247,7 @@ private:
 
     void settle(const Cell& cell, const std::uint32_t* segments, std::vector<bool>& isOuter)
     {
-        const bool isCut = _looks > MostLooks;
+        const bool isCut = _looks > MostLooks || (_isLeft && *_isLeft);
         if ((_level == GridLevel || (_level < GridLevel && isCut)) && isAtTheSide(cell))
             for (std::size_t i = 0; i < cell.count; ++i)
                 isOuter[segments[i]] = true;
@@ -315,6 +315,7 @@ private:
     const KeyCells::Root& _root;
     const KeyCells::Root* const _inner;
     std::vector<std::int32_t>& _cells;
+    const std::atomic<bool>* const _isLeft;
     const std::size_t _mostCells;
     int _level = 0;
     double _half = 0.0; ///< Of the cells of the next level.
@@ -327,7 +328,7 @@ private:
 
 } // namespace
 
-KeyCells::KeyCells(const std::vector<KeySegment>& segments)
+KeyCells::KeyCells(const std::vector<KeySegment>& segments, const std::atomic<bool>* isLeft)
 {
     if (segments.empty() || segments.size() > MaxSegments)
         return;
@@ -350,8 +351,38 @@ KeyCells::KeyCells(const std::vector<KeySegment>& segments)
         root.size = (widest > 0.0 ? widest : 1.0) * (i == 0 ? InnerWidth : OuterWidth);
         root.low = 0.5 * (low + high) - 0.5 * root.size;
         root.first = static_cast<std::int32_t>(_cells.size());
-        Filler filler(candidates, root, i > 0 ? &_roots[i - 1] : nullptr, _cells);
+        Filler filler(candidates, root, i > 0 ? &_roots[i - 1] : nullptr, _cells, isLeft);
         outer = filler.run(std::move(outer));
+    }
+}
+
+// Right, as what has been left out of a cell is beaten everywhere in it by what it lists, or by
+// what is beaten by that.
+KeyCells KeyCells::without(const std::vector<std::uint32_t>& segments) const
+{
+    KeyCells left = *this;
+    std::vector<bool> isGone(_segments.size());
+    for (const std::uint32_t segment : segments)
+        isGone[segment] = true;
+    for (const Root& root : _roots)
+        left.dropLists(root.first, Grid * Grid * Grid, isGone);
+    return left;
+}
+
+void KeyCells::dropLists(std::int32_t first, int count, const std::vector<bool>& isGone)
+{
+    for (std::int32_t i = first; i < first + count; ++i)
+    {
+        std::int32_t& cell = _cells[std::size_t(i)];
+        if (cell > 0)
+            dropLists(cell, 8, isGone);
+        if (cell >= 0)
+            continue;
+        const std::uint32_t list = static_cast<std::uint32_t>(-1 - cell);
+        const auto from = _cells.begin() + std::ptrdiff_t(4 * (list / FoursOfList));
+        if (std::any_of(from, from + std::ptrdiff_t(4 * (list % FoursOfList + 1)),
+                        [&](std::int32_t segment) { return isGone[std::size_t(segment)]; }))
+            cell = 0;
     }
 }
 

@@ -3,6 +3,7 @@
 
 #include <osgMultiRender/KeyTree.h>
 
+#include <atomic>
 #include <optional>
 
 namespace osgMultiRender
@@ -33,10 +34,15 @@ public:
     KeyCells() = default;
     /// Some 100 ms for 10,000 points, up to a second for as many lines. With more than MaxSegments,
     /// or none, nothing is told.
-    explicit KeyCells(const std::vector<KeySegment>& segments);
+    /// Ends soon, with any result, when `isLeft` becomes true.
+    explicit KeyCells(const std::vector<KeySegment>& segments,
+                      const std::atomic<bool>* isLeft = nullptr);
 
     /// The distance of the nearest segment of the point's cell; none where that is not told.
     std::optional<double> distance(const glm::dvec3& point) const;
+
+    /// These without what lists one of some segments: there nothing is told.
+    KeyCells without(const std::vector<std::uint32_t>& segments) const;
 
     const std::array<Root, 2>& getRoots() const { return _roots; } ///< The inner one first.
     /// Cells, x fastest, and lists. A cell is 0 where nothing is told, the index of the first of
@@ -46,6 +52,8 @@ public:
     const std::vector<std::int32_t>& getCells() const { return _cells; }
 
 private:
+    void dropLists(std::int32_t first, int count, const std::vector<bool>& isGone);
+
     std::vector<KeySegment> _segments;
     std::array<Root, 2> _roots;
     std::vector<std::int32_t> _cells;

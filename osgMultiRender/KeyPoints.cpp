@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/KeyPoints.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
@@ -46,6 +47,9 @@ std::vector<KeySegment> join(const std::vector<glm::dvec3>& points, KeyMode mode
 
 struct KeyPoints::Making
 {
+    ~Making() { isLeft = true; } // the future waits for its thread
+
+    std::atomic<bool> isLeft{false};
     std::mutex mutex;
     std::shared_ptr<const KeyCells> cells;
     std::future<std::shared_ptr<const KeyCells>> future;
@@ -75,8 +79,9 @@ std::shared_ptr<const KeyCells> KeyPoints::findCells(bool waits) const
         return _making->cells;
     auto& future = _making->future;
     if (!future.valid())
-        future = std::async(std::launch::async, [segments = _tree.getSegments()]
-                            { return std::make_shared<const KeyCells>(segments); });
+        future = std::async(std::launch::async,
+                            [segments = _tree.getSegments(), isLeft = &_making->isLeft]
+                            { return std::make_shared<const KeyCells>(segments, isLeft); });
     if (waits || future.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         _making->cells = future.get();
     return _making->cells;

@@ -43,9 +43,17 @@ public:
     bool read(const std::string& text, ParsedMix& mix)
     {
         Json json;
+        bool isTooDeep = false;
         try
         {
-            json = Json::parse(text, nullptr, true, true);
+            json = Json::parse(
+                text,
+                [&](int depth, Json::parse_event_t, Json&)
+                {
+                    isTooDeep = isTooDeep || depth > MaxDepth;
+                    return depth <= MaxDepth;
+                },
+                true, true);
         }
         catch (const Json::parse_error& e)
         {
@@ -55,6 +63,12 @@ public:
             _error = "line " + std::to_string(line) + " is no JSON; " + std::string(e.what());
             return false;
         }
+        catch (const Json::exception& e) // a number beyond all doubles
+        {
+            return fail("the mix", "is no JSON; " + std::string(e.what()));
+        }
+        if (isTooDeep)
+            return fail("the mix", "has lists in lists " + std::to_string(MaxDepth) + " deep");
         if (!json.is_object())
             return fail("the mix", "is no object; write { \"renderings\": […], … }");
         for (const auto& [key, value] : json.items())
@@ -66,6 +80,9 @@ public:
     const std::string& getError() const { return _error; }
 
 private:
+    /// More than a mix has; copies of values would take the stack.
+    static constexpr int MaxDepth = 16;
+
     bool fail(const std::string& place, const std::string& cause)
     {
         _error = place + " " + cause;

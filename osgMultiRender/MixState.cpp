@@ -39,6 +39,7 @@ MixState::MixState(unsigned int unit)
       _background(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgmr_mixBackground")),
       _roots(new osg::Uniform(osg::Uniform::FLOAT_VEC4, "osgmr_mixRoots", 2)),
       _grids(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixCells")),
+      _listed(new osg::Uniform(osg::Uniform::INT_VEC4, "osgmr_mixListed")),
       _stateSet(new osg::StateSet)
 {
     const osg::ref_ptr<osg::TextureBuffer> texture = new osg::TextureBuffer(_texels);
@@ -54,8 +55,8 @@ MixState::MixState(unsigned int unit)
     _stateSet->setTextureAttribute(unit, texture,
                                    osg::StateAttribute::OVERRIDE | osg::StateAttribute::PROTECTED);
     _stateSet->addUniform(new osg::Uniform("osgmr_mix", static_cast<int>(unit)));
-    for (osg::Uniform* uniform :
-         {_frame.get(), _keys.get(), _rules.get(), _background.get(), _roots.get(), _grids.get()})
+    for (osg::Uniform* uniform : {_frame.get(), _keys.get(), _rules.get(), _background.get(),
+                                  _roots.get(), _grids.get(), _listed.get()})
         _stateSet->addUniform(uniform);
     update(KeyPoints(), MixWeights(), osg::Matrixd());
 }
@@ -86,7 +87,6 @@ void MixState::update(const KeyPoints& points, const MixWeights& weights,
         std::memcpy(static_cast<void*>(&_cells->front()), cells.data(), 4 * cells.size());
         _cells->dirty();
         _texels->dirty(); // what the texture looks at
-        _texels->dirty(); // what the texture looks at
         _sentCells = _values.cells;
     }
     for (unsigned int i = 0; i < 2; ++i)
@@ -95,6 +95,7 @@ void MixState::update(const KeyPoints& points, const MixWeights& weights,
         _roots->setElement(i, osg::Vec4(root.x, root.y, root.z, root.w));
     }
     setInts(*_grids, _values.grids);
+    setInts(*_listed, _values.listed);
     osg::Matrix3 frame;
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)

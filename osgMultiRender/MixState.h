@@ -49,7 +49,7 @@ private:
     osg::ref_ptr<osg::Vec4uiArray> _texels;
     osg::ref_ptr<osg::Vec4iArray> _cells;       ///< In the same buffer, behind the texels.
     std::shared_ptr<const KeyCells> _sentCells; ///< What is in it.
-    osg::ref_ptr<osg::Uniform> _frame, _keys, _rules, _background, _roots, _grids;
+    osg::ref_ptr<osg::Uniform> _frame, _keys, _rules, _background, _roots, _grids, _listed;
     osg::ref_ptr<osg::StateSet> _stateSet;
 };
 

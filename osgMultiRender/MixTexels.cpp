@@ -72,14 +72,10 @@ void MixTexels::addLine(const glm::dvec3& first, const glm::dvec3& second)
     addFloats(glm::vec4(unit, length - nearest));
 }
 
-void MixTexels::addSegments(const KeyPoints& points, const glm::dvec3& eye)
+void MixTexels::addSegments(const std::vector<KeySegment>& segments, const glm::dvec3& eye)
 {
-    const std::vector<KeySegment>& segments = points.getTree().getSegments();
-    const bool isJoined = points.getMode() != KeyMode::Points && points.getNumPoints() > 1;
-    keys = glm::ivec4(0, static_cast<int>(texels.size()), static_cast<int>(segments.size()),
-                      isJoined ? 2 : 1);
     for (const KeySegment& segment : segments)
-        if (isJoined)
+        if (keys.w > 1)
             addLine(segment.first - eye, segment.second - eye);
         else
             addFloats(glm::vec4(segment.first - eye, 0.0));
@@ -142,12 +138,20 @@ void MixTexels::addNodes(const KeyTree& tree, const glm::dvec3& eye)
 
 void MixTexels::addCells(const KeyPoints& points, const glm::dvec3& eye)
 {
-    const std::shared_ptr<const void> given = points.getIdentity();
-    cells = given && given == _given ? points.findCells() : nullptr;
-    _given = given;
-    grids = glm::ivec4(0);
+    _moves.update(points);
+    cells = _moves.getCells();
+    grids = listed = glm::ivec4(0);
     if (!cells || points.getTree().getSegments().size() <= LinearSize)
         return;
+    listed.x = keys.y;
+    if (!_moves.isOwn())
+    {
+        listed.x = static_cast<int>(texels.size());
+        addSegments(_moves.getListed(), eye);
+        listed.y = static_cast<int>(texels.size());
+        addSegments(_moves.getLoose(), eye);
+        listed.z = static_cast<int>(_moves.getLoose().size());
+    }
     grids.x = static_cast<int>(texels.size());
     for (std::size_t i = 0; i < roots.size(); ++i)
     {
@@ -176,7 +180,11 @@ void MixTexels::set(const KeyPoints& points, const MixWeights& weights, const gl
         grids = glm::ivec4(0);
         return;
     }
-    addSegments(points, eye);
+    const std::vector<KeySegment>& segments = points.getTree().getSegments();
+    const bool isJoined = points.getMode() != KeyMode::Points && points.getNumPoints() > 1;
+    keys = glm::ivec4(0, static_cast<int>(texels.size()), static_cast<int>(segments.size()),
+                      isJoined ? 2 : 1);
+    addSegments(segments, eye);
     addNodes(points.getTree(), eye);
     addCells(points, eye);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <osgMultiRender/KeyPoints.h>
+#include <osgMultiRender/KeyMoves.h>
 #include <osgMultiRender/MixWeights.h>
 
 namespace osgMultiRender
@@ -24,13 +24,15 @@ struct OSGMULTIRENDER_EXPORT MixTexels
     /// Uniform osgmr_mixRules: number of renderings; base or -1; whether to normalise; 0.
     glm::ivec4 rules{0, -1, 0, 0};
     glm::vec4 background{0.0f}; ///< Uniform osgmr_mixBackground.
-    /// Behind the texels, four integers each; null: there are none. Points that are given again
-    /// have them, so that none are made for points that move.
+    /// Behind the texels, four integers each; null: there are none. See KeyMoves.
     std::shared_ptr<const KeyCells> cells;
     /// Uniform osgmr_mixRoots: the low corners of the cells' grids, and 1 / their sizes.
     std::array<glm::vec4, 2> roots{};
     /// Uniform osgmr_mixCells: their first texel or 0; the first cells of both grids; 0.
     glm::ivec4 grids{0};
+    /// Uniform osgmr_mixListed: the first of the segments that cells list; the first of those that
+    /// none lists; their number; 0.
+    glm::ivec4 listed{0};
 
     /// `keysToEye` is affine: the view matrix, after the matrix of the node that the key points
     /// are attached to. One that cannot be inverted, or is not finite, leaves no key points: every
@@ -41,12 +43,12 @@ private:
     void addFloats(const glm::vec4& values);
     void addLine(const glm::dvec3& first, const glm::dvec3& second);
     void addRanges(const MixWeights& weights);
-    void addSegments(const KeyPoints& points, const glm::dvec3& eye);
+    void addSegments(const std::vector<KeySegment>& segments, const glm::dvec3& eye);
     void addNodes(const KeyTree& tree, const glm::dvec3& eye);
     void addNode(const KeyTree::Node& node, const glm::dvec3& eye);
     void addCells(const KeyPoints& points, const glm::dvec3& eye);
 
-    std::shared_ptr<const void> _given; ///< The points of the last time.
+    KeyMoves _moves;
 };
 
 } // namespace osgMultiRender

@@ -16,6 +16,8 @@ uniform ivec4 osgmr_mixRules; // number of renderings; base or -1; whether to no
 uniform vec4 osgmr_mixBackground;
 uniform vec4 osgmr_mixRoots[2]; // low corners of the cells' grids; 1 / their sizes
 uniform ivec4 osgmr_mixCells;   // texel of the cells or 0; the first cells of both grids
+uniform ivec4 osgmr_mixListed;  // texel of the segments that cells list; of those that none lists;
+                                // the number of these
 
 const float osgmr_noDistance = 1e30; // no key points, or a position that is not a number
 const int osgmr_mixLeafSize = 4;
@@ -139,14 +141,14 @@ float osgmr_nearestInList(int first, int last, vec3 at)
     if (osgmr_mixKeys.w > 1)
         for (int i = first; i <= last; ++i)
         {
-            ivec4 four = osgmr_mixKeys.y + 2 * ivec4(texelFetch(osgmr_mix, i));
+            ivec4 four = osgmr_mixListed.x + 2 * ivec4(texelFetch(osgmr_mix, i));
             nearest = min(nearest, min(osgmr_squareToLine(four.x, at), osgmr_squareToLine(four.y, at)));
             nearest = min(nearest, min(osgmr_squareToLine(four.z, at), osgmr_squareToLine(four.w, at)));
         }
     else
         for (int i = first; i <= last; ++i)
         {
-            ivec4 four = osgmr_mixKeys.y + ivec4(texelFetch(osgmr_mix, i));
+            ivec4 four = osgmr_mixListed.x + ivec4(texelFetch(osgmr_mix, i));
             nearest = min(nearest, min(osgmr_squareToPoint(four.x, at), osgmr_squareToPoint(four.y, at)));
             nearest = min(nearest, min(osgmr_squareToPoint(four.z, at), osgmr_squareToPoint(four.w, at)));
         }
@@ -184,7 +186,8 @@ float osgmr_nearestInCell(vec3 at)
     if (cell == 0)
         return -1.0;
     int list = osgmr_mixCells.x + ((-1 - cell) >> 4);
-    return osgmr_nearestInList(list, list + ((-1 - cell) & 15), at);
+    float nearest = osgmr_nearestInList(list, list + ((-1 - cell) & 15), at);
+    return osgmr_nearestOf(osgmr_mixListed.y, osgmr_mixListed.z, at, nearest);
 }
 
 // From a position in eye space, in units of the key points.

@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as an entry of the disk cache: what is taken is bit for bit what is written. The first
 // byte picks the level that is read; an odd one makes a whole entry of the bytes and damages it.
+#include "fuzz/Require.h"
+
 #include <osgPagedTexture/DdsFile.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 using namespace osgPagedTexture;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "ChainFileFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 std::optional<MipChain> readFile(const std::string& file, int level, ContentHash& key)
 {

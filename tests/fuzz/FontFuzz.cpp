@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a font file: an error of one line, or glyphs whose images can be made. An odd number
 // of bytes: letters of their own widths, else cells; every third one has outlines.
+#include "fuzz/Require.h"
+
 #include <osgLabels/GlyphImages.h>
 
 #include <sys/mman.h>
@@ -8,22 +10,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 using namespace osgLabels;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "FontFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 /// Of the bytes: a file in memory, since fonts are opened by name.
 std::string fileOf(const std::uint8_t* data, std::size_t size)

@@ -2,28 +2,19 @@
 // Any bytes as a pair of GLSL files with their side file: what comments and lines say of uniforms
 // is finite, and the pair merges or is left out with a reason.
 // 0xFF splits the bytes into vertex text, fragment text and side file.
+#include "fuzz/Require.h"
+
 #include <osgMultiRender/ImportFile.h>
 #include <osgMultiRender/Merger.h>
 
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <set>
 
 using namespace osgMultiRender;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "GlslPairFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 void checkImported(const Rendering& rendering)
 {

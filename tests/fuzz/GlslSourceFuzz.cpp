@@ -2,26 +2,17 @@
 // Any bytes as GLSL: the tokens give them back, the model and the edits hold, nothing crashes.
 // The first byte picks the version that is raised to and the stage; a byte 0xFF splits the rest
 // into shader objects.
+#include "fuzz/Require.h"
+
 #include <osgMultiRender/GlslEdit.h>
 #include <osgMultiRender/GlslWrap.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 using namespace osgMultiRender;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "GlslSourceFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 void checkTokens(const std::string& text)
 {

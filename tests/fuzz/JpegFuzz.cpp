@@ -1,27 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a JPEG file, at each reduction: a picture of the right size, or an error of one
 // line.
+#include "fuzz/Require.h"
+
 #include <osgPagedTexture/BlockFormat.h>
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/JpegFile.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 using namespace osgPagedTexture;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "JpegFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 void checkLine(const std::string& line)
 {

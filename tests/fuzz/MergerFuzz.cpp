@@ -1,26 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as renderings: they import, merge or are left out with a reason; nothing crashes.
 // Byte 0 picks the options and the kind; 0xFF splits the rest into texts: vertex, fragment, …
+#include "fuzz/Require.h"
+
 #include <osgMultiRender/Import.h>
 #include <osgMultiRender/Merger.h>
 
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 using namespace osgMultiRender;
 
 namespace
 {
-
-void require(bool holds, const char* claim)
-{
-    if (!holds)
-    {
-        std::fprintf(stderr, "MergerFuzz: violated: %s\n", claim);
-        std::abort();
-    }
-}
 
 void checkMerged(const Merged& merged, std::size_t count)
 {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -50,10 +49,9 @@ void compareWithBruteForce(const KeySet& set, KeyMode mode, std::mt19937& random
     }
 }
 
-double getSeconds()
+double boxDistance(const KeyTree::Node::Child& box, const glm::dvec3& place)
 {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
+    return glm::length(glm::max(glm::max(box.low - place, place - box.high), glm::dvec3(0.0)));
 }
 
 int depthOf(const KeyTree& tree, std::uint32_t node)
@@ -226,32 +224,44 @@ TEST(KeyPoints, pointsBeyondTheLimitAreLeftOut)
     EXPECT_LE(3 * depthOf(keys.getTree(), 0), KeyTree::MaxStack);
 }
 
-TEST(KeyPoints, aQueryLooksAtFewOf10000Points)
+// What any walk has to open: leaves whose box is nearer than the nearest segment.
+TEST(KeyPoints, fewOf10000PointsLieInBoxesNearerThanTheNearestOne)
 {
     std::mt19937 random(3);
     for (const KeySet& set : makeKeySets(10000, 9))
     {
         // Lines between random points cross the whole set: no tree keeps them apart.
         const bool isPath = set.name == "path" || set.name == "circle";
-        const double start = getSeconds();
         const KeyPoints keys(set.points, isPath ? KeyMode::Polyline : KeyMode::Points);
-        const double build = getSeconds() - start;
-        double query = 0.0, all = 0.0;
-        for (int i = 0; i < 1000; ++i)
+        double opened = 0.0;
+        for (int i = 0; i < 200; ++i)
         {
             const glm::dvec3 place = set.place(random);
-            const double before = getSeconds();
             const double distance = keys.distance(place);
-            query += getSeconds() - before;
-            if (i % 20)
-                continue;
-            const double beforeAll = getSeconds();
-            ASSERT_EQ(distance, lookAtAll(keys.getTree(), place));
-            all += 20.0 * (getSeconds() - beforeAll);
+            for (const KeyTree::Node& node : keys.getTree().getNodes())
+                for (std::uint32_t child = 0; child < node.used; ++child)
+                    if (boxDistance(node.children[child], place) < distance)
+                        opened += node.children[child].count;
         }
-        std::printf("%-10s built in %5.2f ms, %6.2f us a query, %6.2f us for all\n",
-                    set.name.c_str(), build * 1e3, query * 1e3, all * 1e3);
-        // A tenth or less here; other work on the machine may fall on one of the two.
-        EXPECT_LT(query, 0.5 * all) << set.name;
+        const double share = opened / 200.0 / double(keys.getTree().getSegments().size());
+        std::printf("%-10s %.5f\n", set.name.c_str(), share);
+        EXPECT_LT(share, 0.01) << set.name;
+    }
+}
+
+// Cut before all cells have their candidates.
+TEST(KeyPoints, cellsOfVeryManyPointsTellTheDistanceOrNothing)
+{
+    std::mt19937 random(5);
+    const KeySet set = makeKeySets(osgMultiRender::KeyCells::MaxSegments, 5)[0];
+    const KeyPoints keys(set.points);
+    const auto cells = keys.findCells(true);
+    for (int i = 0; i < 400; ++i)
+    {
+        const glm::dvec3 place = (i % 2 ? 1.0 : 5.0) * set.place(random);
+        if (const std::optional<double> distance = cells->distance(place))
+        {
+            ASSERT_NEAR(*distance, keys.distance(place), 1e-14 * (*distance + glm::length(place)));
+        }
     }
 }

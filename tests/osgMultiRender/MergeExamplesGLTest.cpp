@@ -2,9 +2,11 @@
 // The shaders of OpenSceneGraph's own examples, alone and merged.
 #include "osgMultiRender/CppShaders.h"
 #include "osgMultiRender/MergeCases.h"
+#include "osgMultiRender/MergeChecks.h"
 #include "osgMultiRender/MergePicture.h"
 
 #include <support/ChildProcess.h>
+#include <support/FilesBelow.h>
 #include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
@@ -16,6 +18,7 @@
 #include <iterator>
 
 using namespace osgMultiRender;
+using mergeChecks::errorsOf;
 
 namespace
 {
@@ -30,14 +33,6 @@ std::string readFile(const std::filesystem::path& path)
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string errorsOf(const Merged& merged)
-{
-    std::string text;
-    for (const MergeMessage& message : merged.messages)
-        text += message.severity == MergeSeverity::Error ? message.text + "\n" : "";
-    return text;
-}
-
 class MergeExamplesGLTest : public PlainGLTest
 {
 protected:
@@ -46,13 +41,9 @@ protected:
         PlainGLTest::SetUp();
         if (!hasContext())
             return;
-        if (!std::filesystem::exists(Folder))
+        const auto files = support::filesBelow(Folder, {".cpp", ".h"});
+        if (files.empty())
             GTEST_SKIP() << "the package openscenegraph-examples is not installed";
-        std::vector<std::filesystem::path> files;
-        for (const auto& entry : std::filesystem::recursive_directory_iterator(Folder))
-            if (entry.path().extension() == ".cpp" || entry.path().extension() == ".h")
-                files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
         for (const std::filesystem::path& file : files)
             addPrograms(file.stem().string(), shadersOfCpp(readFile(file)));
     }

@@ -3,6 +3,7 @@
 #include "osgMultiRender/MergePicture.h"
 
 #include <osgMultiRender/Import.h>
+#include <support/FilesBelow.h>
 
 #include <gtest/gtest.h>
 
@@ -30,16 +31,11 @@ protected:
         {
             return;
         }
-        if (!std::filesystem::exists(Folder))
+        for (const std::filesystem::path& file : support::filesBelow(Folder, {".gdp"}))
+            _projects.push_back(importRendering(file.string()));
+        if (_projects.empty())
         {
             GTEST_SKIP() << "the package meshlab is not installed";
-        }
-        for (const auto& entry : std::filesystem::directory_iterator(Folder))
-        {
-            if (entry.path().extension() == ".gdp")
-            {
-                _projects.push_back(importRendering(entry.path().string()));
-            }
         }
         std::sort(_projects.begin(), _projects.end(),
                   [](const Rendering& a, const Rendering& b) { return a.name < b.name; });

@@ -132,6 +132,15 @@ TEST(MixFileTest, whatIsWrongIsOneLineAndChangesNothing)
     EXPECT_EQ(apply("{\"base\": \"phong\"}"),
               "a.mix: setting 'base=phong': there is no rendering 'phong'; name one, its number or "
               "'none'");
+    EXPECT_EQ(apply("{\"points\": [[0, 0, 1e999]]}").find("a.mix: the mix is no JSON; "), 0u);
+    for (const int depth : {17, 1000000}) // closed, and broken off
+        for (const std::string& end : {std::string(std::size_t(depth), ']') + "}", std::string()})
+        {
+            const std::string said =
+                apply("{\"points\": " + std::string(std::size_t(depth), '[') + end);
+            EXPECT_EQ(said.find("a.mix: "), 0u);
+            EXPECT_EQ(said.find('\n'), std::string::npos);
+        }
     std::string error;
     const osg::ref_ptr<MixedScene> scene = new MixedScene;
     EXPECT_FALSE(readMixFile(*scene, "missing.mix", error));

@@ -123,6 +123,14 @@ protected:
         ASSERT_EQ(_twin.state->getTexels().grids.x > 0,
                   keys.getTree().getSegments().size() > MixTexels::LinearSize);
         ASSERT_NO_FATAL_FAILURE(comparePicture(keys, weights, inverse, positions, set.radius));
+        if (set.points.size() <= MixTexels::LinearSize || set.points.size() > 300)
+            return;
+        std::vector<glm::dvec3> points = set.points; // one is dragged, another one gone
+        points[points.size() / 2] = set.place(_random);
+        points.erase(points.begin());
+        const KeyPoints moved(points, mode);
+        _twin.state->update(moved, weights, view);
+        ASSERT_NO_FATAL_FAILURE(comparePicture(moved, weights, inverse, positions, set.radius));
     }
 
     void comparePicture(const KeyPoints& keys, const MixWeights& weights,
@@ -206,6 +214,30 @@ TEST_F(MixGLTest, fragmentsAskTheCellsOfPointsThatStay)
     const glm::ivec4 there = _twin.state->getTexels().keys;
     _twin.state->getStateSet()->getUniform("osgmr_mixKeys")->set(0, there.y, 0, there.w);
     ASSERT_NO_FATAL_FAILURE(comparePicture(keys, weights, osg::Matrixd(), positions, set.radius));
+}
+
+TEST_F(MixGLTest, fragmentsAskTheCellsWhileAPointIsDragged)
+{
+    KeySet set = makeKeySets(1000, 11)[0];
+    const MixWeights weights(Ranges, makeRules(0));
+    const KeyPoints keys(set.points);
+    keys.findCells(true);
+    for (int frame = 0; frame < 2; ++frame)
+        _twin.state->update(keys, weights, osg::Matrixd());
+    for (int frame = 0; frame < 3; ++frame)
+    {
+        set.points[0] = set.place(_random);
+        const KeyPoints moved(set.points);
+        _twin.state->update(moved, weights, osg::Matrixd());
+        ASSERT_GT(_twin.state->getTexels().grids.x, 0);
+        ASSERT_EQ(_twin.state->getTexels().listed.z, 1);
+        std::vector<glm::vec3> positions(Size * Size, glm::vec3(set.points[0]));
+        for (std::size_t i = 1; i < positions.size(); ++i)
+            positions[i] = set.place(_random);
+        _twin.setPositions(positions);
+        ASSERT_NO_FATAL_FAILURE(
+            comparePicture(moved, weights, osg::Matrixd(), positions, set.radius));
+    }
 }
 
 TEST_F(MixGLTest, aPositionThatIsNotANumberIsInfinitelyFar)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 
 namespace
@@ -56,6 +57,11 @@ FrameTime FrameTimer::drawOnce(osg::Node& scene, const support::CameraSpec& came
     if (stats.getAttribute(stats.getLatestFrameNumber(), "Cull traversal time taken", seconds))
         time.cull = 1e3 * seconds;
     return time;
+}
+
+double getCpuMilliseconds()
+{
+    return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 double median(std::vector<double> values)

@@ -50,6 +50,9 @@ private:
     support::HeadlessViewer _viewer;
 };
 
+/// CPU time of all threads of the program: others may keep a machine busy.
+double getCpuMilliseconds();
+
 double median(std::vector<double> values);
 
 /// Appends the median of each of several series to a row.
