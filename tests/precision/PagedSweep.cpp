@@ -35,8 +35,9 @@ public:
         if (!_viewer.isValid())
             throw std::runtime_error(_viewer.getError());
         const std::string path = _folder.file("flight.path");
-        support::ChildProcess program{
-            {OSGKITS_OSGPHOTOCITY, "--bytes", "60MiB", "--path", path, _folder.file("town.osgb")}};
+        support::ChildProcess program;
+        program.arguments = {OSGKITS_OSGPHOTOCITY,     "--bytes", "60MiB", "--path", path,
+                             _folder.file("town.osgb")};
         program.timeoutSeconds = 1200.0;
         const support::ProcessResult made = program.run();
         if (made.exitCode != 0)
