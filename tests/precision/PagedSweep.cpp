@@ -106,24 +106,18 @@ precision::Method method(const std::shared_ptr<Town>& town, const std::string& n
                          const std::string& settings)
 {
     return {name, knob, values,
-            [=](double value)
-            {
-                std::string text = std::to_string(value);
-                return town->fly(settings + text);
-            }};
+            [=](double value) { return town->fly(settings + std::to_string(value)); }};
 }
 
 precision::Sweep makeMemorySweep()
 {
     const auto town = std::make_shared<Town>();
     precision::Sweep sweep = makeSweep(town, "paged-memory", "textures on the GPU, MiB");
-    const auto add = [&](const std::string& name, const std::string& settings)
-    {
-        sweep.methods.push_back(
-            method(town, name, "MiB", {1, 2, 4, 8, 16, 32, 64, 128}, settings + "gpu="));
-    };
-    add("compressed", "");
-    add("not compressed", "compression=none,");
+    const auto add =
+        [&](const std::string& name, const std::vector<double>& values, const std::string& settings)
+    { sweep.methods.push_back(method(town, name, "MiB", values, settings + "gpu=")); };
+    add("compressed", {1, 2, 4, 8, 16, 32, 64}, "");
+    add("not compressed", {4, 16, 64, 256}, "compression=none,");
     return sweep;
 }
 
@@ -131,14 +125,12 @@ precision::Sweep makeUploadSweep()
 {
     const auto town = std::make_shared<Town>();
     precision::Sweep sweep = makeSweep(town, "paged-uploads", "uploads, ms a frame");
-    const auto add = [&](const std::string& name, const std::string& settings)
-    {
-        sweep.methods.push_back(
-            method(town, name, "ms", {0.03, 0.1, 0.3, 1, 2, 8}, settings + "upload="));
-    };
-    add("cache filled", "");
-    add("first start", "cache=off,");
-    add("cache filled, not compressed", "compression=none,");
+    const auto add =
+        [&](const std::string& name, const std::vector<double>& values, const std::string& settings)
+    { sweep.methods.push_back(method(town, name, "ms", values, settings + "upload=")); };
+    add("cache filled", {0.03, 0.1, 0.3, 1, 3}, "");
+    add("first start", {0.1, 1}, "cache=off,");
+    add("cache filled, not compressed", {0.03, 0.1, 0.3, 1}, "compression=none,");
     return sweep;
 }
 
