@@ -26,6 +26,12 @@ struct BoundTexture
 class BoundTextures
 {
 public:
+    /// Whether a StateSet says anything of textures.
+    static bool areIn(const osg::StateSet& stateSet)
+    {
+        return stateSet.getNumTextureAttributeLists() + stateSet.getNumTextureModeLists() > 0;
+    }
+
     /// That of one more StateSet.
     void take(const osg::StateSet& stateSet, const Pager& pager);
 

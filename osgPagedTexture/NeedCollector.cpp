@@ -32,10 +32,17 @@ public:
     {
     }
 
-    void collect(const osgUtil::StateGraph& graph, BoundTextures bound)
+    void collect(const osgUtil::StateGraph& graph, const BoundTextures& above)
     {
-        if (const osg::StateSet* stateSet = graph.getStateSet())
-            bound.take(*stateSet, _pager);
+        const osg::StateSet* stateSet = graph.getStateSet();
+        const bool isBinding = stateSet && BoundTextures::areIn(*stateSet);
+        BoundTextures own;
+        if (isBinding)
+        {
+            own = above;
+            own.take(*stateSet, _pager);
+        }
+        const BoundTextures& bound = isBinding ? own : above;
         if (!bound.get().empty())
             for (const osg::ref_ptr<osgUtil::RenderLeaf>& leaf : graph._leaves)
                 demand(*leaf, bound);
@@ -44,13 +51,7 @@ public:
                 collect(*child.second, bound);
     }
 
-    std::vector<PagedDemand> takeDemands()
-    {
-        std::vector<PagedDemand> demands;
-        for (const auto& each : _demands)
-            demands.push_back(each.second);
-        return demands;
-    }
+    std::vector<PagedDemand> takeDemands() { return std::move(_demands); }
 
 private:
     void demand(const osgUtil::RenderLeaf& leaf, const BoundTextures& bound)
@@ -65,13 +66,10 @@ private:
         const bool moves = _moved != glm::dvec3(0.0);
         for (const BoundTexture& each : bound.get())
         {
-            PagedDemand& sum = _demands[each.texture];
-            sum.texture = each.texture;
             // What is in view has at least a share of a pixel.
-            sum.pixels = std::max({sum.pixels, bound.pixels(each, *drawable, now, _cache), 1e-12});
-            if (moves)
-                sum.soonPixels =
-                    std::max(sum.soonPixels, bound.pixels(each, *drawable, soon, _cache));
+            const double pixels = std::max(bound.pixels(each, *drawable, now, _cache), 1e-12);
+            _demands.push_back(
+                {each.texture, pixels, moves ? bound.pixels(each, *drawable, soon, _cache) : 0.0});
         }
     }
 
@@ -79,7 +77,7 @@ private:
     const Pager& _pager;
     SurfaceCache& _cache;
     const glm::dvec3 _moved;
-    std::unordered_map<unsigned int, PagedDemand> _demands;
+    std::vector<PagedDemand> _demands; ///< One for each leaf: the pager takes the most.
 };
 
 class SurfaceFinder : public osg::NodeVisitor
@@ -119,14 +117,16 @@ TexelSurface SurfaceCache::get(const osg::Drawable& drawable, unsigned int unit)
     const unsigned int modified = modifiedCount(drawable);
     {
         std::lock_guard<std::mutex> lock(_mutex);
-        const auto found = _known.find({&drawable, unit});
-        if (found != _known.end() && found->second.drawable.valid() &&
-            found->second.modified == modified)
-            return found->second.surface;
+        const auto found = _known.find(&drawable);
+        if (found != _known.end() && unit < found->second.size() &&
+            found->second[unit].drawable.valid() && found->second[unit].modified == modified)
+            return found->second[unit].surface;
     }
     const TexelSurface surface = surfaceOf(drawable, unit);
     std::lock_guard<std::mutex> lock(_mutex);
-    _known[{&drawable, unit}] = {&drawable, modified, surface};
+    std::vector<Known>& units = _known[&drawable];
+    units.resize(std::max(units.size(), std::size_t(unit) + 1));
+    units[unit] = {&drawable, modified, surface};
     return surface;
 }
 

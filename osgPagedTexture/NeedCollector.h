@@ -9,7 +9,6 @@
 #include <osgUtil/CullVisitor>
 
 #include <array>
-#include <map>
 #include <mutex>
 #include <unordered_map>
 #include <vector>
@@ -32,7 +31,7 @@ private:
         TexelSurface surface;
     };
     std::mutex _mutex;
-    std::map<std::pair<const osg::Drawable*, unsigned int>, Known> _known;
+    std::unordered_map<const osg::Drawable*, std::vector<Known>> _known; ///< By unit, too.
 };
 
 /// Finds the surfaces in a subgraph and takes them into the cache, so that no frame has to.

@@ -30,6 +30,12 @@ PagedSettings Pager::getSettings() const
     return _settings;
 }
 
+void Pager::findOnePixel(Entry& entry)
+{
+    const PagedImage& image = entry.image;
+    entry.onePixel = levelOnOnePixel({image.width, image.height, image.anisotropy, image.lodBias});
+}
+
 unsigned int Pager::add(const PagedImage& image)
 {
     std::lock_guard<std::mutex> lock(_mutex);
@@ -41,6 +47,7 @@ unsigned int Pager::add(const PagedImage& image)
         ++entry.users;
         entry.image.anisotropy = std::max(entry.image.anisotropy, image.anisotropy);
         entry.image.lodBias = std::min(entry.image.lodBias, image.lodBias);
+        findOnePixel(entry);
         return found->second;
     }
     _entries.emplace_back();
@@ -64,7 +71,7 @@ void Pager::remove(unsigned int texture)
     _byFile.erase({entry.image.file, entry.image.use});
     cancel(texture);
     countWhole(entry);
-    wake(texture);
+    stir(texture);
     if (entry.isWatched)
         _watch->remove(entry.image.file);
     for (auto& each : _contexts)
@@ -109,10 +116,7 @@ void Pager::advanceLocked()
         return;
     meetAwake();
     plan();
-    _changing = 0;
-    _asked = 0;
-    for (const unsigned int texture : _active)
-        moveTo(texture);
+    carryOut();
     _planMilliseconds = threadMilliseconds() - start;
 }
 
@@ -133,6 +137,8 @@ void Pager::meetContexts()
         context.queue = each.second;
         context.resident.assign(_entries.size(), UploadEvent::Gone);
         context.queued.assign(_entries.size(), None);
+        for (Entry& entry : _entries)
+            entry.isCalm = false;
     }
 }
 
@@ -177,6 +183,7 @@ void Pager::setFormat(Entry& entry)
         for (int level = 0; level < levelCount(image.width, image.height); ++level)
             bytes.push_back(chainBytes(entry.format, image.width, image.height, level));
     entry.bytes = &bytes;
+    findOnePixel(entry);
     entry.finest = 0;
     while (levelSide(std::max(image.width, image.height), entry.finest) > _abilities.maxSide)
         ++entry.finest;
@@ -188,7 +195,7 @@ void Pager::takeEvents()
     for (auto& each : _contexts)
         for (const UploadEvent& event : each.second.queue->takeEvents())
         {
-            wake(event.texture);
+            stir(event.texture);
             each.second.queued[event.texture] = None;
             if (event.isRefused)
             {

@@ -13,7 +13,6 @@
 #include <osgPagedTexture/UploadQueue.h>
 
 #include <atomic>
-#include <deque>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -130,24 +129,29 @@ public:
 private:
     struct Entry
     {
-        PagedImage image;
-        BlockFormat format = BlockFormat::RGBA8;
+        // Those that plan() reads of each texture in view, which may be many, lie together.
         const std::vector<std::uint64_t>* bytes = nullptr; ///< Null: not known before GL is.
         double pixels = 0.0;
         double soonPixels = 0.0;
         double soonBefore = 0.0; ///< A frame earlier: views look at two times ahead in turns.
         double need = ResidencyWish::None;
+        double onePixel = 0.0;        ///< See levelOnOnePixel().
+        std::uint64_t wholeBytes = 0; ///< Its share of `_wholeBytes`.
         std::uint32_t lastUsed = 0;
         int target = -1;
         int finest = 0; ///< Of what GL and the file allow.
+        unsigned int users = 1;
+        bool failed = false;   ///< As in `state`.
+        bool isActive = false; ///< It is one of `_active` or `_awake`.
+        bool isCalm = false;   ///< All contexts have its target, and nothing is on its way.
+        bool isWatched = false;
+        bool isOld = false; ///< What contexts show is of a file that has changed.
+
+        PagedImage image;
+        BlockFormat format = BlockFormat::RGBA8;
         RequestId request = 0;
         int requested = -1;
         double urgency = 0.0; ///< The request's priority.
-        unsigned int users = 1;
-        std::uint64_t wholeBytes = 0; ///< Its share of `_wholeBytes`.
-        bool isActive = false;        ///< It is one of `_active` or `_awake`.
-        bool isWatched = false;
-        bool isOld = false; ///< What contexts show is of a file that has changed.
         std::shared_ptr<PagedState> state = std::make_shared<PagedState>();
     };
     struct Context
@@ -166,14 +170,19 @@ private:
     void takeChanges();
     void loadAgain(unsigned int texture, const ImageInfo& info);
     void setFormat(Entry& entry);
+    static void findOnePixel(Entry& entry);
     void takeResults();
     void accept(const ChainResult& result);
     void wake(unsigned int texture);
+    void stir(unsigned int texture);
+    static void setFailed(Entry& entry, bool failed);
     void meetAwake();
     void rest();
     bool isIdle(unsigned int texture) const;
     void countWhole(Entry& entry);
     void plan();
+    void carryOut();
+    ResidencyWish wishOf(unsigned int texture);
     void moveTo(unsigned int texture);
     bool orderIn(Context& context, unsigned int texture, int target);
     void ask(unsigned int texture);
@@ -194,7 +203,7 @@ private:
 
     mutable std::mutex _mutex; ///< Of all that follows.
     PagedSettings _settings;
-    std::deque<Entry> _entries;
+    std::vector<Entry> _entries;
     std::map<unsigned int, Context> _contexts;
     ContextAbilities _abilities; ///< What all contexts can do.
     std::map<std::pair<std::string, TextureUse>, unsigned int> _byFile;

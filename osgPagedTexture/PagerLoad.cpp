@@ -28,6 +28,11 @@ void Pager::takeChanges()
     }
 }
 
+void Pager::setFailed(Entry& entry, bool failed)
+{
+    entry.failed = entry.state->failed = failed;
+}
+
 void Pager::loadAgain(unsigned int texture, const ImageInfo& info)
 {
     Entry& entry = _entries[texture];
@@ -36,9 +41,9 @@ void Pager::loadAgain(unsigned int texture, const ImageInfo& info)
     entry.image.channels = info.channels;
     entry.image.translucent = info.translucent;
     cancel(texture);
-    entry.state->failed = false;
+    setFailed(entry, false);
     setFormat(entry);
-    wake(texture);
+    stir(texture);
     entry.state->translucent = entry.image.translucent;
     entry.isOld = true;
     for (auto& each : _contexts)
@@ -86,7 +91,7 @@ void Pager::accept(const ChainResult& result)
 void Pager::give(const ChainResult& result, unsigned int texture)
 {
     Entry& entry = _entries[texture];
-    wake(texture);
+    stir(texture);
     if (result.state != ChainResult::State::Preview)
     {
         entry.request = 0;
@@ -100,7 +105,7 @@ void Pager::give(const ChainResult& result, unsigned int texture)
     // What is there already stays.
     const int there = coarsest(texture);
     if (there == UploadEvent::Gone)
-        entry.state->failed = true;
+        setFailed(entry, true);
     else
         entry.finest = there;
     countWhole(entry);
@@ -185,7 +190,7 @@ bool Pager::orderIn(Context& context, unsigned int texture, int target)
 void Pager::moveTo(unsigned int texture)
 {
     Entry& entry = _entries[texture];
-    if (entry.users == 0 || entry.state->failed)
+    if (entry.users == 0 || entry.failed)
         return;
     bool needsChain = false, isChanging = false;
     for (auto& each : _contexts)
@@ -199,6 +204,7 @@ void Pager::moveTo(unsigned int texture)
         ask(texture);
     else
         cancel(texture);
+    entry.isCalm = !isChanging && !needsChain;
 }
 
 void Pager::ask(unsigned int texture)

@@ -4,17 +4,25 @@
 #include <osgPagedTexture/Pager.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace osgPagedTexture
 {
 
-/// Something has become of the texture.
+/// Something is to be decided of the texture.
 void Pager::wake(unsigned int texture)
 {
     if (_entries[texture].isActive)
         return;
     _entries[texture].isActive = true;
     _awake.push_back(texture);
+}
+
+/// Something has become of it that its target does not say.
+void Pager::stir(unsigned int texture)
+{
+    _entries[texture].isCalm = false;
+    wake(texture);
 }
 
 /// In order of their numbers, so that who woke first is not who gets most.
@@ -60,10 +68,40 @@ bool Pager::isIdle(unsigned int texture) const
 /// After all that changes what there is of it at full size.
 void Pager::countWhole(Entry& entry)
 {
-    const bool counts = entry.users > 0 && !entry.state->failed && entry.bytes;
+    const bool counts = entry.users > 0 && !entry.failed && entry.bytes;
     const std::uint64_t bytes = counts ? (*entry.bytes)[std::size_t(entry.finest)] : 0;
     _wholeBytes += bytes - entry.wholeBytes;
     entry.wholeBytes = bytes;
+}
+
+ResidencyWish Pager::wishOf(unsigned int texture)
+{
+    Entry& entry = _entries[texture];
+    ResidencyWish wish;
+    entry.need = ResidencyWish::None;
+    if (entry.users == 0 || !entry.bytes)
+        return wish;
+    const int levels = int(entry.bytes->size());
+    // Levels count from the finest one that may be there.
+    const auto wanted = [&](double pixels)
+    {
+        if (!(pixels > 0.0))
+            return ResidencyWish::None;
+        const double level = entry.onePixel - 0.5 * std::log2(pixels);
+        return std::max(0.0, std::min(level, levels - 1.0) - entry.finest);
+    };
+    entry.need = wanted(entry.pixels);
+    if (entry.failed)
+        return wish;
+    wish.bytes = entry.bytes->data() + entry.finest;
+    wish.levels = levels - entry.finest;
+    wish.need = entry.need;
+    const double soon = std::max(entry.soonPixels, entry.soonBefore);
+    wish.soon = soon == entry.pixels ? entry.need : wanted(soon);
+    const int there = entry.isCalm ? entry.target : coarsest(texture);
+    wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
+    wish.lastUsed = entry.lastUsed;
+    return wish;
 }
 
 void Pager::plan()
@@ -72,37 +110,25 @@ void Pager::plan()
     std::uint64_t others = _wholeBytes;
     for (std::size_t i = 0; i < _active.size(); ++i)
     {
-        Entry& entry = _entries[_active[i]];
-        ResidencyWish& wish = _wishes[i];
-        wish = {};
-        others -= entry.wholeBytes;
-        entry.need = ResidencyWish::None;
-        if (entry.users == 0 || !entry.bytes)
-            continue;
-        const TexelTexture texture{entry.image.width, entry.image.height, entry.image.anisotropy,
-                                   entry.image.lodBias};
-        // Levels count from the finest one that may be there.
-        const auto wanted = [&](double pixels)
-        {
-            return pixels > 0.0 ? std::max(0.0, neededLevel(texture, pixels) - entry.finest)
-                                : ResidencyWish::None;
-        };
-        entry.need = wanted(entry.pixels);
-        if (entry.state->failed)
-            continue;
-        wish.bytes = entry.bytes->data() + entry.finest;
-        wish.levels = int(entry.bytes->size()) - entry.finest;
-        wish.need = entry.need;
-        wish.soon = wanted(std::max(entry.soonPixels, entry.soonBefore));
-        const int there = coarsest(_active[i]);
-        wish.resident = there == UploadEvent::Gone ? -1 : std::max(0, there - entry.finest);
-        wish.lastUsed = entry.lastUsed;
+        _wishes[i] = wishOf(_active[i]);
+        others -= _entries[_active[i]].wholeBytes;
     }
     _plan = planResidency(_wishes, _settings.gpuBytes(), others);
+}
+
+/// Brings textures nearer to the plan. Most are where they should be.
+void Pager::carryOut()
+{
+    _changing = 0;
+    _asked = 0;
     for (std::size_t i = 0; i < _active.size(); ++i)
     {
         Entry& entry = _entries[_active[i]];
-        entry.target = _plan.first[i] < 0 ? -1 : _plan.first[i] + entry.finest;
+        const int target = _plan.first[i] < 0 ? -1 : _plan.first[i] + entry.finest;
+        if (entry.isCalm && entry.target == target)
+            continue;
+        entry.target = target;
+        moveTo(_active[i]);
     }
 }
 

@@ -31,9 +31,9 @@ PagerStatistics Pager::getStatistics() const
         ++result.textures;
         result.inView += entry.need >= 0.0 ? 1 : 0;
         result.resident += coarsest(unsigned(i)) != UploadEvent::Gone ? 1 : 0;
-        result.failed += entry.state->failed ? 1 : 0;
+        result.failed += entry.failed ? 1 : 0;
         result.wholeBytes += entry.bytes ? (*entry.bytes)[0] : 0;
-        if (entry.need < 0.0 || entry.state->failed)
+        if (entry.need < 0.0 || entry.failed)
             continue;
         const auto texels = [&](int level) {
             return double(levelSide(entry.image.width, level)) *
@@ -71,8 +71,8 @@ std::vector<Pager::Line> Pager::getLines() const
         const Entry& entry = _entries[i];
         if (entry.users > 0)
             lines.push_back({entry.image.file, coarsest(unsigned(i)), entry.target, entry.need,
-                             entry.state->failed, entry.image.width, entry.image.height,
-                             entry.image.use, entry.format});
+                             entry.failed, entry.image.width, entry.image.height, entry.image.use,
+                             entry.format});
     }
     return lines;
 }

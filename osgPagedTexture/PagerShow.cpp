@@ -39,7 +39,7 @@ bool Pager::isAtRestIn(unsigned int contextID) const
     {
         const Entry& entry = _entries[i];
         const bool isDone = context.resident[i] == entry.target && context.queued[i] == None;
-        if (!isDone && entry.users > 0 && !entry.state->failed)
+        if (!isDone && entry.users > 0 && !entry.failed)
             return false;
     }
     return true;

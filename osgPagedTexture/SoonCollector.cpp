@@ -30,14 +30,6 @@ SoonCollector::SoonCollector(const Pager& pager, SurfaceCache& cache, const Texe
     }
 }
 
-std::vector<PagedDemand> SoonCollector::takeDemands() const
-{
-    std::vector<PagedDemand> demands;
-    for (const auto& each : _demands)
-        demands.push_back(each.second);
-    return demands;
-}
-
 bool SoonCollector::isInView(const osg::BoundingSphere& bound) const
 {
     if (!bound.valid())
@@ -83,12 +75,8 @@ void SoonCollector::apply(osg::Drawable& drawable)
         return;
     _view.toEye = glm::make_mat4(_toEye.back().ptr());
     for (const BoundTexture& each : bound.get())
-    {
-        PagedDemand& demand = _demands[each.texture];
-        demand.texture = each.texture;
-        demand.soonPixels =
-            std::max({demand.soonPixels, bound.pixels(each, drawable, _view, _cache), 1e-12});
-    }
+        _demands.push_back(
+            {each.texture, 0.0, std::max(bound.pixels(each, drawable, _view, _cache), 1e-12)});
 }
 
 void SoonCollector::apply(osg::Transform& transform)

@@ -6,7 +6,7 @@
 
 #include <osg/NodeVisitor>
 
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace osgPagedTexture
@@ -22,7 +22,8 @@ public:
     SoonCollector(const Pager& pager, SurfaceCache& cache, const TexelView& view,
                   const osg::Matrixd& projection, const osg::Matrixd& toEye);
 
-    std::vector<PagedDemand> takeDemands() const;
+    /// One for each drawable.
+    std::vector<PagedDemand> takeDemands() { return std::move(_demands); }
 
     void apply(osg::Node& node) override;
     void apply(osg::Drawable& drawable) override;
@@ -41,7 +42,7 @@ private:
     osg::Vec4d _sides[4]; ///< Planes in coordinates of the eye, inside is above 0.
     std::vector<osg::Matrixd> _toEye;
     std::vector<BoundTextures> _bound;
-    std::unordered_map<unsigned int, PagedDemand> _demands;
+    std::vector<PagedDemand> _demands;
 };
 
 } // namespace osgPagedTexture

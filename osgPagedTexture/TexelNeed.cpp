@@ -98,16 +98,20 @@ double pixelsOfTexture(const TexelSurface& surface, const TexelView& view)
     return std::isnan(pixels) ? Infinity : std::abs(pixels);
 }
 
+double levelOnOnePixel(const TexelTexture& texture)
+{
+    // GL takes the longer side of what a pixel covers, or with anisotropy at least its share of
+    // it: neither is below the root of the area.
+    const double texels = double(texture.width) * texture.height;
+    return 0.5 * std::log2(texels / std::max(1.0, texture.anisotropy)) + texture.bias;
+}
+
 double neededLevel(const TexelTexture& texture, double pixels)
 {
     const int last = levelCount(std::max(1, texture.width), std::max(1, texture.height)) - 1;
     if (pixels == 0.0)
         return last;
-    // GL takes the longer side of what a pixel covers, or with anisotropy at least its share of
-    // it: neither is below the root of the area.
-    const double texels = double(texture.width) * texture.height;
-    const double area = 0.5 * std::log2(texels / pixels);
-    const double level = area - 0.5 * std::log2(std::max(1.0, texture.anisotropy)) + texture.bias;
+    const double level = levelOnOnePixel(texture) - 0.5 * std::log2(pixels);
     return std::isnan(level) ? 0.0 : std::clamp(level, 0.0, double(last));
 }
 

@@ -46,6 +46,9 @@ struct TexelTexture
     double bias = 0.0;       ///< Levels that the texture adds, GL_TEXTURE_LOD_BIAS.
 };
 
+/// The level of a texture of which all lies on one pixel, before it is clamped.
+OSGPAGEDTEXTURE_EXPORT double levelOnOnePixel(const TexelTexture& texture);
+
 /// The level that GL looks at where a whole texture covers `pixels`: no finer one is used. From 0
 /// to the last level, with a fraction; 0 for NaN.
 OSGPAGEDTEXTURE_EXPORT double neededLevel(const TexelTexture& texture, double pixels);

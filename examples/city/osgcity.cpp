@@ -62,9 +62,7 @@ int main(int argc, char** argv)
         "Hall\", trees\n"
         "\"tree-4\"; user values labelClass say what is a building, tree, street or terrain.",
         "osgcity");
-    line.add_option("FILE", file, "its ending says the format: .osgb, .osgt, .osgx")
-        ->type_name("")
-        ->required();
+    line.addFile(file, ".osgb, .osgt, .osgx");
     line.addNumber("--buildings", settings.buildings, 0u, 20000u, "how many");
     line.addNumber("--trees", settings.trees, 0u, 100000u, "how many");
     line.addNumber("--seed", settings.seed, 0u, ~0u, "another number gives another town");

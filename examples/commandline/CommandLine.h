@@ -54,6 +54,14 @@ public:
             ->type_name("N");
     }
 
+    /// The file that is written.
+    CLI::Option* addFile(std::string& file, const std::string& endings)
+    {
+        return add_option("FILE", file, "its ending says the format: " + endings)
+            ->type_name("")
+            ->required();
+    }
+
     /// One of several words.
     template <class Value>
     CLI::Option* addChoice(const std::string& name, Value& value,

@@ -73,10 +73,7 @@ CLI::Validator sizeWithUnit()
 
 void declare(examples::CommandLine& line, Command& command)
 {
-    line.add_option("FILE", command.file,
-                    "its ending says the format: .osgb, .osgt, .ive, .obj, .iv")
-        ->type_name("")
-        ->required();
+    line.addFile(command.file, ".osgb, .osgt, .ive, .obj, .iv");
     CLI::Option* textures = line.addNumber("--textures", command.town.textures, 1u, MostTextures,
                                            "how many JPEG files; with --bytes one for 550 KiB");
     line.add_option("--bytes", command.pictures.bytes,

@@ -16,9 +16,7 @@ int main(int argc, char** argv)
         "Writes a generated industrial plant: pipes, beams, valves and tanks with names of\n"
         "their own, and eight lights.",
         "osgplant");
-    line.add_option("FILE", file, "its ending says the format: .osgb, .osgt, .osgx, .ive")
-        ->type_name("")
-        ->required();
+    line.addFile(file, ".osgb, .osgt, .osgx, .ive");
     line.addNumber("--objects", settings.objects, 0u, 1000000u, "how many");
     line.addNumber("--seed", settings.seed, 0u, ~0u, "another number gives another plant");
     line.add_flag_callback(

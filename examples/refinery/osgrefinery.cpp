@@ -35,10 +35,7 @@ int fail(const std::string& message)
 
 void declare(examples::CommandLine& line, Command& command)
 {
-    line.add_option("FILE", command.file,
-                    "its ending says the format: .osgb, .osgt, .osgx, or .iv for\nInventor text")
-        ->type_name("")
-        ->required();
+    line.addFile(command.file, ".osgb, .osgt, .osgx, or .iv for\nInventor text");
     line.addNumber("--objects", command.settings.objects, 0u, MostInBatch,
                    "how many; for .iv and --as drawables to 300000");
     line.addNumber("--seed", command.settings.seed, 0u, ~0u,

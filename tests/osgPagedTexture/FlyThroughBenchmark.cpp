@@ -17,10 +17,12 @@
 // at rest; frames and their times in ms; CPU time of uploads a frame in ms; of the texels that
 // frames need, those that are not there, in percent: the mean, and what 99 % of the frames do not
 // exceed; MiB of textures on the GPU as counted, of the process, both at most; MiB read from files,
-// and files decoded; CPU time of looking ahead, ms a frame.
+// and files decoded; MiB uploaded; CPU time of looking ahead, ms a frame; of the longest frame the
+// second of the path, and the CPU time of the thread that draws, of uploads and of the plan in ms.
 #include <support/FrameTimer.h>
 
 #include <osgPagedTexture/PagedScene.h>
+#include <osgPagedTexture/ThreadClock.h>
 
 #include <osg/AnimationPath>
 #include <osg/Timer>
@@ -135,6 +137,7 @@ public:
             show(*path, time);
         const osg::Timer_t landing = osg::Timer::instance()->tick();
         const std::size_t frames = _frames.size();
+        const Longest longest = _longest;
         // The need of a frame is known in the next one, and GL's abilities after the first.
         for (int calm = 0; _scene && calm < 4 && secondsSince(landing) < 120.0;
              calm = _scene->isAtRest() ? calm + 1 : 0)
@@ -159,7 +162,12 @@ public:
                 procNumber("/proc/self/status", "VmHWM") / 1024.0,
                 procNumber("/proc/self/io", "rchar") / (1 << 20),
                 _scene ? double(_scene->getStatistics().loader.filesDecoded) : 0.0,
-                mean(_ahead)};
+                _scene ? double(_scene->getStatistics().upload.uploaded) / (1 << 20) : 0.0,
+                mean(_ahead),
+                longest.at,
+                longest.cpu,
+                longest.upload,
+                longest.plan};
     }
 
 private:
@@ -192,11 +200,18 @@ private:
         camera.projection = osg::Matrixd::perspective(60.0, aspect, 0.5, 5000.0);
         _viewer.setSimulationTime(time);
         const osg::Timer_t start = osg::Timer::instance()->tick();
+        const double worked = osgPagedTexture::threadMilliseconds();
         _viewer.render(_model, camera, _task.options.width, _task.options.height);
-        _frames.push_back(1e3 * secondsSince(start));
+        const double took = 1e3 * secondsSince(start);
+        osgPagedTexture::PagerStatistics statistics;
+        if (_scene)
+            statistics = _scene->getStatistics();
+        if (_frames.empty() || took > *std::max_element(_frames.begin(), _frames.end()))
+            _longest = {time, osgPagedTexture::threadMilliseconds() - worked,
+                        statistics.upload.lastMilliseconds, statistics.planMilliseconds};
+        _frames.push_back(took);
         if (!_scene)
             return;
-        const osgPagedTexture::PagerStatistics statistics = _scene->getStatistics();
         _uploads.push_back(statistics.upload.lastMilliseconds);
         _missing.push_back(statistics.missingTexels / std::max(1.0, statistics.neededTexels));
         _ahead.push_back(statistics.prefetchMilliseconds);
@@ -207,6 +222,10 @@ private:
     osg::ref_ptr<osg::Node> _model;
     osgPagedTexture::PagedScene* _scene = nullptr;
     std::vector<double> _frames, _uploads, _missing, _ahead;
+    struct Longest
+    {
+        double at = 0.0, cpu = 0.0, upload = 0.0, plan = 0.0;
+    } _longest; ///< Seconds on the path, then milliseconds, of the longest frame.
 };
 
 /// In a process of its own, so that memory is that of this way alone.
@@ -252,9 +271,11 @@ int main(int argc, char** argv)
     task.options.rounds = 1;
     if (!task.options.read(arguments))
         return 2;
-    Table table({"way", "load_s", "first_s", "rest_s", "frames", "p50_ms", "p99_ms", "max_ms",
-                 "upload_p50", "upload_p99", "upload_p999", "upload_max", "missing_%",
-                 "missing_p99", "gpu_MiB", "process_MiB", "read_MiB", "decoded", "ahead_ms"});
+    Table table({"way",         "load_s",     "first_s",    "rest_s",       "frames",
+                 "p50_ms",      "p99_ms",     "max_ms",     "upload_p50",   "upload_p99",
+                 "upload_p999", "upload_max", "missing_%",  "missing_p99",  "gpu_MiB",
+                 "process_MiB", "read_MiB",   "decoded",    "uploaded_MiB", "ahead_ms",
+                 "max_at_s",    "max_cpu",    "max_upload", "max_plan"});
     int failures = 0;
     std::map<int, std::vector<std::vector<double>>> columns; // Of each model, values of the rounds.
     for (int round = 0; round < task.options.rounds; ++round)

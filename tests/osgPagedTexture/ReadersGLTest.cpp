@@ -114,6 +114,34 @@ f 1/1 2/2 3/3 4/4
     expectAlike(wavefront);
 }
 
+TEST_F(ReadersGLTest, stanfordModelsArePaged)
+{
+    OSGKITS_NEED_GL(_viewer);
+    paged::writePicture(_folder, "wall.jpg", 256, 256);
+    expectAlike(_folder.write("model.ply", R"(ply
+format ascii 1.0
+comment TextureFile wall.jpg
+element vertex 4
+property float x
+property float y
+property float z
+property float nx
+property float ny
+property float nz
+property float texture_u
+property float texture_v
+element face 2
+property list uchar int vertex_indices
+end_header
+-1 4 -1 0 -1 0 0 0
+1 4 -1 0 -1 0 1 0
+1 4 1 0 -1 0 1 1
+-1 4 1 0 -1 0 0 1
+3 0 1 2
+3 0 2 3
+)"));
+}
+
 TEST_F(ReadersGLTest, readersSeeTheTrueTranslucency)
 {
     paged::writePicture(_folder, "opaque.png", 64, 64, 3);

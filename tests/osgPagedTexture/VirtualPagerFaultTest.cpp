@@ -5,8 +5,6 @@
 
 #include <osgPagedTexture/TileFolders.h>
 
-#include <support/TemporaryFolder.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,10 +16,8 @@ namespace osgPagedTexture
 
 namespace fs = std::filesystem;
 
-struct VirtualPagerFaultTest : testing::Test
+struct VirtualPagerFaultTest : PagerTest
 {
-    VirtualPagerFaultTest() { source.build(store, 1); }
-
     static int countLines(const std::vector<std::string>& lines, const std::string& part)
     {
         return int(std::count_if(lines.begin(), lines.end(),
@@ -54,13 +50,7 @@ struct VirtualPagerFaultTest : testing::Test
         writer.commit();
     }
 
-    support::TemporaryFolder folder;
     const std::string tiles = folder.file("tiles");
-    ColorStore source;
-    TileGrid grid = source.settings().grid;
-    const std::string store = folder.file("store.tiles");
-    ContextModel model;
-    unsigned int frame = 0;
 };
 
 TEST_F(VirtualPagerFaultTest, aDamagedTileLeavesTheCoarserPageAndIsNamedOnce)
@@ -94,9 +84,7 @@ TEST_F(VirtualPagerFaultTest, aDamagedTileLeavesTheCoarserPageAndIsNamedOnce)
 TEST_F(VirtualPagerFaultTest, aNewStateWhoseCoarsestPageIsDamagedIsNotShown)
 {
     VirtualPager pager(smallPager(200));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 4, 4));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 4, 4);
     source.update(store, 2);
     put({0, pageLevels(grid) - 1, 0, 0}, TileData::encoded("this is no picture"));
     pager.invalidate(0);
@@ -116,9 +104,7 @@ TEST_F(VirtualPagerFaultTest, aStoreThatIsDeletedGoesOnAndIsNamed)
     VirtualPagerSettings settings = smallPager(200);
     settings.watchSeconds = 0.01;
     VirtualPager pager(settings);
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 4, 4));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 4, 4);
     fs::remove(store);
     std::vector<std::string> messages;
     for (int i = 0; i < 1000 && messages.empty(); ++i)
@@ -151,9 +137,7 @@ TEST_F(VirtualPagerFaultTest, aStoreThatIsCutOffKeepsWhatIsThereAndNamesNotEvery
         writer.commit();
     }
     VirtualPager pager(smallPager(200));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 1, 2, 2, 4, 4));
-    settle(pager, model, frame);
+    show(pager, store, 1, 2, 2, 4, 4);
     fs::resize_file(store, 5000);
     pager.report(0, needsOf(grid, 0, 0, 4, 4, 8, 8));
     settle(pager, model, frame);
@@ -175,9 +159,7 @@ TEST_F(VirtualPagerFaultTest, aStoreThatIsCutOffKeepsWhatIsThereAndNamesNotEvery
 TEST_F(VirtualPagerFaultTest, aStoreOfAnotherSizeIsNotShownInTheOldOnesPlace)
 {
     VirtualPager pager(smallPager(200));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 4, 4));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 4, 4);
     ColorStore other = source;
     other.width = 100;
     other.build(folder.file("other.tiles"), 2);
@@ -192,9 +174,7 @@ TEST_F(VirtualPagerFaultTest, aFolderThatIsGoneDoesNotBecomeEmptyPages)
 {
     writeFolder(1);
     VirtualPager pager(smallPager(200));
-    pager.addTexture(tiles);
-    pager.report(0, needsOf(grid, 0, 1, 2, 2, 4, 4));
-    settle(pager, model, frame);
+    show(pager, tiles, 1, 2, 2, 4, 4);
     EXPECT_TRUE(model.holds({0, 1, 5, 5}));
     EXPECT_EQ(model.versions(0, grid), std::set<int>{1});
 
@@ -210,9 +190,7 @@ TEST_F(VirtualPagerFaultTest, aFolderThatChangesIsNotMixedOnceItIsInvalid)
 {
     writeFolder(1);
     VirtualPager pager(smallPager(200));
-    pager.addTexture(tiles);
-    pager.report(0, needsOf(grid, 0, 0, 0, 0, 5, 5));
-    settle(pager, model, frame);
+    show(pager, tiles, 0, 0, 0, 5, 5);
     writeFolder(2);
     pager.invalidate(0);
     for (int i = 0; i < 9; ++i)

@@ -3,7 +3,6 @@
 #include "VirtualStores.h"
 
 #include <support/ResidentMemory.h>
-#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 
@@ -14,15 +13,8 @@
 namespace osgPagedTexture
 {
 
-struct VirtualPagerRandomTest : testing::Test
+struct VirtualPagerRandomTest : StoreTest
 {
-    VirtualPagerRandomTest() { source.build(store, 1); }
-
-    support::TemporaryFolder folder;
-    ColorStore source;
-    const TileGrid grid = source.settings().grid;
-    const std::string store = folder.file("store.tiles");
-    const std::uint64_t pageBytes = 400;
 };
 
 TEST_F(VirtualPagerRandomTest, tablesNameOnlyWhatIsThereWhateverHappens)

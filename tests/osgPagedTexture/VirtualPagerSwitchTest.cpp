@@ -4,8 +4,6 @@
 
 #include <osgPagedTexture/TileFolders.h>
 
-#include <support/TemporaryFolder.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,10 +15,8 @@ namespace osgPagedTexture
 
 namespace fs = std::filesystem;
 
-struct VirtualPagerSwitchTest : testing::Test
+struct VirtualPagerSwitchTest : PagerTest
 {
-    VirtualPagerSwitchTest() { source.build(store, 1); }
-
     /// Frames until the pager is at rest; each must show one version of what has changed.
     int lookAtFrames(VirtualPager& pager, std::uint64_t bytes, const PixelRect* changed = nullptr)
     {
@@ -40,22 +36,12 @@ struct VirtualPagerSwitchTest : testing::Test
         EXPECT_LT(frames, 5000);
         return frames;
     }
-
-    support::TemporaryFolder folder;
-    ColorStore source;
-    const TileGrid grid = source.settings().grid;
-    const std::string store = folder.file("store.tiles");
-    const std::uint64_t pageBytes = 400;
-    ContextModel model;
-    unsigned int frame = 0;
 };
 
 TEST_F(VirtualPagerSwitchTest, noFrameMixesOldAndNewPagesWhileUploadsTrickle)
 {
     VirtualPager pager(smallPager(300));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 8, 8));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 8, 8);
     source.update(store, 2);
     pager.invalidate(0);
     EXPECT_FALSE(pager.isAtRest());
@@ -70,9 +56,7 @@ TEST_F(VirtualPagerSwitchTest, noFrameMixesOldAndNewPagesWhileUploadsTrickle)
 TEST_F(VirtualPagerSwitchTest, thePictureIsAsSharpInTheFirstFrameOfTheNewState)
 {
     VirtualPager pager(smallPager(300));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 8, 8));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 8, 8);
     source.update(store, 2);
     pager.invalidate(0);
     while (model.versions(0, grid).count(2) == 0)
@@ -91,9 +75,7 @@ TEST_F(VirtualPagerSwitchTest, thePictureIsAsSharpInTheFirstFrameOfTheNewState)
 TEST_F(VirtualPagerSwitchTest, pagesThatAreTheSameStayWhereTheyAre)
 {
     VirtualPager pager(smallPager(300));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 0, 0, 12, 12));
-    settle(pager, model, frame);
+    show(pager, store, 0, 0, 0, 12, 12);
     const std::uint64_t uploaded = pager.getStatistics().uploadedPages;
     const PixelRect changed{20, 20, 8, 8};
     source.update(store, 2, &changed);
@@ -110,9 +92,7 @@ TEST_F(VirtualPagerSwitchTest, pagesThatAreTheSameStayWhereTheyAre)
 TEST_F(VirtualPagerSwitchTest, aRegionIsReadAgainAndNothingElse)
 {
     VirtualPager pager(smallPager(300));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 0, 0, 12, 12));
-    settle(pager, model, frame);
+    show(pager, store, 0, 0, 0, 12, 12);
     const std::uint64_t loaded = pager.getStatistics().loadedPages;
     const PixelRect changed{20, 20, 8, 8};
     source.update(store, 2, &changed);
@@ -146,9 +126,7 @@ TEST_F(VirtualPagerSwitchTest, withoutRoomPagesAreReplacedInOneFrameTheCoarsestF
 TEST_F(VirtualPagerSwitchTest, aPagerOfOneSlotSwitchesToo)
 {
     VirtualPager pager(smallPager(1));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 0, 0, 4, 4));
-    settle(pager, model, frame);
+    show(pager, store, 0, 0, 0, 4, 4);
     source.update(store, 2);
     pager.invalidate(0);
     lookAtFrames(pager, pageBytes);
@@ -158,9 +136,7 @@ TEST_F(VirtualPagerSwitchTest, aPagerOfOneSlotSwitchesToo)
 TEST_F(VirtualPagerSwitchTest, aCameraThatMovesDoesNotKeepTheOldState)
 {
     VirtualPager pager(smallPager(200));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 0, 0, 5, 5));
-    settle(pager, model, frame);
+    show(pager, store, 0, 0, 0, 5, 5);
     source.update(store, 2);
     pager.invalidate(0);
     int frames = 0;
@@ -180,9 +156,7 @@ TEST_F(VirtualPagerSwitchTest, aCameraThatMovesDoesNotKeepTheOldState)
 TEST_F(VirtualPagerSwitchTest, manyUpdatesInARowEndWithTheLastOne)
 {
     VirtualPager pager(smallPager(150));
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 6, 6));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 6, 6);
     for (int version = 2; version < 16; ++version)
     {
         source.update(store, version);
@@ -203,9 +177,7 @@ TEST_F(VirtualPagerSwitchTest, aCommitOfAnotherProcessIsSeenByTheWatch)
     VirtualPagerSettings settings = smallPager(200);
     settings.watchSeconds = 0.02;
     VirtualPager pager(settings);
-    pager.addTexture(store);
-    pager.report(0, needsOf(grid, 0, 0, 4, 4, 6, 6));
-    settle(pager, model, frame);
+    show(pager, store, 0, 4, 4, 6, 6);
     source.update(store, 3);
     for (int i = 0; i < 1000 && model.versions(0, grid) != std::set<int>{3}; ++i)
     {

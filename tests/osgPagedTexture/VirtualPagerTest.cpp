@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "VirtualStores.h"
 
-#include <support/TemporaryFolder.h>
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,16 +10,8 @@
 namespace osgPagedTexture
 {
 
-struct VirtualPagerTest : testing::Test
+struct VirtualPagerTest : PagerTest
 {
-    VirtualPagerTest() { source.build(store, 1); }
-
-    support::TemporaryFolder folder;
-    ColorStore source;
-    const TileGrid grid = source.settings().grid;
-    const std::string store = folder.file("store.tiles");
-    ContextModel model;
-    unsigned int frame = 0;
 };
 
 TEST_F(VirtualPagerTest, whatAViewAsksForIsThereWithTheCoarserPagesAboveIt)

@@ -5,6 +5,7 @@
 
 #include <osgPagedTexture/TilePack.h>
 #include <osgPagedTexture/VirtualPager.h>
+#include <support/TemporaryFolder.h>
 
 #include <gtest/gtest.h>
 
@@ -214,5 +215,34 @@ inline VirtualPagerSettings smallPager(int slots)
     settings.watchSeconds = 0.0;
     return settings;
 }
+
+/// A store of one version.
+struct StoreTest : testing::Test
+{
+    StoreTest() { source.build(store, 1); }
+
+    support::TemporaryFolder folder;
+    ColorStore source;
+    TileGrid grid = source.settings().grid;
+    const std::string store = folder.file("store.tiles");
+    const std::uint64_t pageBytes = 400;
+};
+
+/// And a context that shows it.
+struct PagerTest : StoreTest
+{
+    /// Frames until a rectangle of pages of a level of a pager's first texture, of `path`, is
+    /// there.
+    void show(VirtualPager& pager, const std::string& path, int level, int x, int y, int columns,
+              int rows)
+    {
+        pager.addTexture(path);
+        pager.report(0, needsOf(grid, 0, level, x, y, columns, rows));
+        settle(pager, model, frame);
+    }
+
+    ContextModel model;
+    unsigned int frame = 0;
+};
 
 } // namespace osgPagedTexture

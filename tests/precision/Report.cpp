@@ -87,6 +87,34 @@ void writeFailures(std::ostream& out, const std::vector<Measurement>& measuremen
     }
 }
 
+/// Place, lower and upper end of the bar, label.
+void writePoint(std::ostream& out, const Sweep& sweep, const Measurement& measurement, double error)
+{
+    if (!sweep.budgetName.empty())
+    {
+        out << measurement.value << ' ' << error << ' ' << error << ' ' << error;
+    }
+    else
+    {
+        out << error << ' ' << getMilliseconds(measurement, 0.5) << ' '
+            << getMilliseconds(measurement, 0.1) << ' ' << getMilliseconds(measurement, 0.9);
+    }
+    out << ' ' << measurement.value << '\n';
+}
+
+void writeAxes(std::ostream& out, const Sweep& sweep)
+{
+    const bool isTime = sweep.budgetName.empty();
+    out << "\nset xlabel " << quotePlot(isTime ? sweep.errorName : sweep.budgetName)
+        << "\nset ylabel "
+        << quotePlot(isTime ? "run time, ms (median, p10 to p90)" : sweep.errorName)
+        << "\nset logscale xy\n";
+    if (isTime)
+    {
+        out << "set format xy '10^{%T}'\n";
+    }
+}
+
 void writeLines(std::ostream& out, const Sweep& sweep)
 {
     const char* separator = "plot ";
@@ -154,9 +182,7 @@ void writePlot(std::ostream& out, const Sweep& sweep, const std::vector<Measurem
         {
             if (measurement.method == method.name && !measurement.hasFailed())
             {
-                out << std::max(measurement.error, floor) << ' '
-                    << getMilliseconds(measurement, 0.5) << ' ' << getMilliseconds(measurement, 0.1)
-                    << ' ' << getMilliseconds(measurement, 0.9) << ' ' << measurement.value << '\n';
+                writePoint(out, sweep, measurement, std::max(measurement.error, floor));
             }
         }
         out << "EOD\n";
@@ -164,9 +190,9 @@ void writePlot(std::ostream& out, const Sweep& sweep, const std::vector<Measurem
     out << "set terminal svg size 900,600 font 'sans,13' background rgb 'white'\n"
         << "set output " << quotePlot(svgName) << "\nset title "
         << quotePlot(sweep.title + "\n" + describeMachine() + "; " + sweep.renderer)
-        << " noenhanced font ',12'\nset xlabel " << quotePlot(sweep.errorName)
-        << "\nset ylabel 'run time, ms (median, p10 to p90)'\n"
-        << "set logscale xy\nset format xy '10^{%T}'\nset grid\nset offsets graph 0.08, graph "
+        << " noenhanced font ',12'";
+    writeAxes(out, sweep);
+    out << "set grid\nset offsets graph 0.08, graph "
            "0.08, "
            "graph 0.12, graph 0.05\nset key outside below\n";
     writeFailures(out, measurements);

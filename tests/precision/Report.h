@@ -27,10 +27,10 @@ std::string describeMachine();
 
 void writeCsv(std::ostream& out, const Sweep& sweep, const std::vector<Measurement>& measurements);
 
-/// A gnuplot script that draws the diagram as an SVG file of that name: error and run time, both
-/// logarithmic, a line a method, points labelled with the knob's value, bars from p10 to p90. An
-/// error of 0 is drawn at a tenth of the smallest other one. Failures stand as crosses at the top,
-/// each with its method and value.
+/// A gnuplot script that draws the diagram as an SVG file of that name: error and run time, or the
+/// sweep's budget and the error, both logarithmic, a line a method, points labelled with the knob's
+/// value, bars from p10 to p90. An error of 0 is drawn at a tenth of the smallest other one.
+/// Failures stand as crosses at the top, each with its method and value.
 void writePlot(std::ostream& out, const Sweep& sweep, const std::vector<Measurement>& measurements,
                const std::string& svgName);
 

@@ -43,7 +43,9 @@ struct Sweep
     std::vector<Method> methods;
     std::string renderer; ///< GL renderer string, or what else did the work.
     bool errorEachRound =
-        false; ///< Else the first round's error counts; the mean of all otherwise.
+        false;              ///< Else the first round's error counts; the mean of all otherwise.
+    std::string budgetName; ///< What all knobs are, with the unit, where the diagram is to show the
+                            ///< error over that; else it shows the run time over the error.
 };
 
 /// A sweep of the program: one static object in the file of the sweep. The factory is called only

@@ -1,45 +1,28 @@
 // SPDX-License-Identifier: MIT
 // How far pictures of a flight over a virtual texture are from those that wait for all pages, and
 // what a frame costs.
+#include "Flight.h"
 #include "Sweep.h"
 
 #include "../osgPagedTexture/FlightGround.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace
 {
 
 using precision::Outcome;
-using Clock = std::chrono::steady_clock;
+using precision::Pictures;
 
 constexpr int Width = 640, Height = 360;
-constexpr int Step = 24, First = 12; ///< Frames that are compared.
 constexpr std::int64_t Side = 26000; ///< 2 GiB as RGB.
-constexpr std::chrono::milliseconds Frame(33);
-
-using Pictures = std::vector<osg::ref_ptr<osg::Image>>;
-
-/// Mean difference of channels, of 255.
-double meanDifference(const osg::Image& a, const osg::Image& b)
-{
-    double sum = 0.0;
-    for (int y = 0; y < a.t(); ++y)
-        for (int x = 0; x < a.s(); ++x)
-            for (unsigned int c = 0; c < 3; ++c)
-                sum += std::abs(int(a.data(unsigned(x), unsigned(y))[c]) -
-                                int(b.data(unsigned(x), unsigned(y))[c]));
-    return sum / (3.0 * a.s() * a.t());
-}
+constexpr precision::Flight OverGround{flight::Frames, 24, 12, std::chrono::milliseconds(33)};
 
 class Workshop
 {
@@ -52,28 +35,12 @@ public:
 
     std::string getRenderer() { return _viewer.getRenderer(); }
 
-    /// A round at thirty frames a second; the error is the mean of the compared frames', the time
-    /// that of a frame without what it waits for its turn.
+    /// A round at thirty frames a second.
     Outcome fly(const std::string& settings, int tileSide)
     {
         const Pictures& truth = getTruth(tileSide);
         const auto scene = makeScene(settings, tileSide);
-        Outcome outcome;
-        outcome.seconds = 0.0;
-        Clock::time_point turn = Clock::now();
-        for (int frame = 0; frame < flight::Frames; ++frame)
-        {
-            std::this_thread::sleep_until(turn);
-            const Clock::time_point start = Clock::now();
-            const auto picture = _viewer.render(scene, flight::cameraAt(frame), Width, Height);
-            const std::chrono::duration<double> took = Clock::now() - start;
-            turn = std::max(turn + Frame, Clock::now());
-            outcome.seconds += took.count() / flight::Frames;
-            if (frame % Step == First)
-                outcome.number +=
-                    meanDifference(*picture, *truth[std::size_t(frame / Step)]) / truth.size();
-        }
-        return outcome;
+        return OverGround.fly(truth, [&](int frame) { return draw(scene, frame); });
     }
 
 private:
@@ -94,9 +61,12 @@ private:
         if (!truth.empty())
             return truth;
         const auto scene = makeScene("gpu=512,cpu=512,compression=none,wait=on", tileSide);
-        for (int frame = First; frame < flight::Frames; frame += Step)
-            truth.push_back(_viewer.render(scene, flight::cameraAt(frame), Width, Height));
-        return truth;
+        return truth = OverGround.take([&](int frame) { return draw(scene, frame); });
+    }
+
+    osg::ref_ptr<osg::Image> draw(osg::Node* scene, int frame)
+    {
+        return _viewer.render(scene, flight::cameraAt(frame), Width, Height);
     }
 
     support::HeadlessViewer _viewer{{Width, Height}};
