@@ -47,7 +47,7 @@ public:
     glm::vec3 upTo(float share) const
     {
         const float rest = 1.0f - share;
-        const float end = _end * share * (1.0f + 0.9f * skew * rest * rest);
+        const float end = _end * share * (1.0f + bend * rest * rest);
         const float over = std::max(end - _shoulder, 0.0f);
         const float fallen = over * std::min(over * _inverse.y, 1.0f);
         return {end, end - 0.5f * fallen,
@@ -63,7 +63,7 @@ public:
         return {s * _a + t * _b, side * side};
     }
 
-    float height, skew;
+    float height, skew, bend = 0.0f;
 
 private:
     glm::vec2 _a, _b, _run, _inverse;
@@ -227,7 +227,7 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
     const glm::vec2 twice(0.5f * (columns.x - columns.y), a.x * a.y + b.x * b.y);
     const float axis = glm::length(twice);
     const bool isLong = squares > 2.26f * area;
-    const Slicing slicing(a, b, twice, axis, area);
+    Slicing slicing(a, b, twice, axis, area);
     const float ratio = std::min((0.5f * squares + axis) / area, MostLong);
     const float slices = ratio + slicing.skew * (0.6f * ratio + 0.5f);
 
@@ -247,12 +247,14 @@ float GlyphCoverage::getInk(const std::vector<std::uint32_t>& codes, const glm::
     const float turns = isLong   ? glm::clamp(std::ceil(0.5f * slices - 0.2f), 1.0f, MostTurns)
                         : isPair ? 1.0f
                                  : 2.0f;
+    const float perTurn = 1.0f / turns;
+    slicing.bend = slicing.skew * (0.3f + 1.2f * perTurn);
     float ink = 0.0f, weight = 0.0f;
     glm::vec3 before(0.0f);
     for (float i = 0.0f; i < turns; i += 1.0f)
     {
         const glm::vec2 off = spread * (0.25f * a + (i > 0.0f ? -0.25f : 0.25f) * b);
-        const glm::vec3 upTo = slicing.upTo((i + 1.0f) / turns), slice = upTo - before;
+        const glm::vec3 upTo = slicing.upTo((i + 1.0f) * perTurn), slice = upTo - before;
         before = upTo;
         const glm::vec3 square = isLong ? slicing.getSquare(slice) : glm::vec3(off, quartered);
         const float part = isLong ? slice.y : 1.0f;

@@ -197,7 +197,8 @@ float osgLabels_letterInk(osgLabels_Text text, osgLabels_Cell cell, vec2 place,
 
 // A footprint along its long axis. Across that it is of one height up to the shoulder, and falls to
 // 0 at the end. Slices are cut from the middle to the end, and with each one that opposite to it:
-// the nearer to the end, the shorter, since there they are lower too.
+// the nearer to the end, the shorter, since there they are lower too, by as much as lowers the error
+// most: the fewer slices, the more.
 struct osgLabels_Slicing
 {
     vec2 a, b;      // sides, the one longer along the axis first,
@@ -205,6 +206,7 @@ struct osgLabels_Slicing
     vec2 inverse;
     float end, shoulder, height;
     float skew;     // 0: a rectangle, 1: a rhombus
+    float bend;     // how much longer the slices in the middle are
 };
 
 osgLabels_Slicing osgLabels_slicingOf(vec2 a, vec2 b, vec2 twice, float axis, float area)
@@ -225,6 +227,7 @@ osgLabels_Slicing osgLabels_slicingOf(vec2 a, vec2 b, vec2 twice, float axis, fl
     slicing.shoulder = 0.5 * (slicing.run.x - slicing.run.y);
     slicing.height = area * slicing.inverse.x;
     slicing.skew = slicing.run.y * slicing.inverse.x;
+    slicing.bend = 0.0;
     return slicing;
 }
 
@@ -232,7 +235,7 @@ osgLabels_Slicing osgLabels_slicingOf(vec2 a, vec2 b, vec2 twice, float axis, fl
 vec3 osgLabels_upTo(osgLabels_Slicing slicing, float share)
 {
     float rest = 1.0 - share;
-    float end = slicing.end * share * (1.0 + 0.9 * slicing.skew * rest * rest);
+    float end = slicing.end * share * (1.0 + slicing.bend * rest * rest);
     float over = max(end - slicing.shoulder, 0.0);
     float fallen = over * min(over * slicing.inverse.y, 1.0);
     return vec3(end, end - 0.5 * fallen,
@@ -283,6 +286,8 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     // Two look-ups a turn: of two slices or quarters, or of a letter and its nearer neighbour.
     float turns = isLong ? clamp(ceil(0.5 * slices - 0.2), 1.0, osgLabels_MostTurns)
                          : isPair ? 1.0 : 2.0;
+    float perTurn = 1.0 / turns;
+    slicing.bend = slicing.skew * (0.3 + 1.2 * perTurn);
     osgLabels_Cell cell = osgLabels_cellAt(text, osgLabels_near(text, place.x), place.x);
     osgLabels_Cell neighbour =
         osgLabels_neighbour(text, cell, place.x - cell.left < 0.5 * cell.width ? -1 : 1);
@@ -291,7 +296,7 @@ float osgLabels_ink(osgLabels_Text text, vec2 place, mat2 footprint, uint which)
     do
     {
         vec2 off = spread * (0.25 * a + (i > 0.0 ? -0.25 : 0.25) * b);
-        vec3 upTo = osgLabels_upTo(slicing, (i + 1.0) / turns);
+        vec3 upTo = osgLabels_upTo(slicing, (i + 1.0) * perTurn);
         vec3 slice = upTo - before;
         vec3 square = isLong ? osgLabels_squareOf(slicing, slice) : vec3(off, quartered);
         float part = isLong ? slice.y : 1.0;

@@ -107,8 +107,8 @@ TEST(CoverageGLTest, longFootprintsAreSampledAlongTheirAxis)
     support::HeadlessViewer viewer;
     OSGKITS_NEED_GL(viewer);
     const Page page;
-    // Slices don't look at neighbouring letters, which costs 0.1 at 8 pixels an em, where 1.3 was
-    // measured; without slices 8 and more.
+    // Slices don't look at neighbouring letters, which costs 0.1 at 8 pixels an em, where 1.15 was
+    // measured at 5.76, and 1.3 at 12; without slices 8 and more.
     for (const double squash : {4.0, 5.76, 12.0})
         for (const double degrees : {0.0, 27.0})
             for (const double em : {8.0, 12.0, 16.0, 24.0, 32.0, 64.0})
@@ -116,9 +116,9 @@ TEST(CoverageGLTest, longFootprintsAreSampledAlongTheirAxis)
                 {
                     CoverageView view = makeView(degrees, squash, em);
                     view.axis = axis;
-                    EXPECT_LE(getError(viewer, page, view), squash > 6.0 ? 1.5
-                                                            : em < 12.0  ? 1.35
-                                                                         : 1.05)
+                    EXPECT_LE(getError(viewer, page, view), squash > 6.0 ? 1.4
+                                                            : em < 12.0  ? 1.2
+                                                                         : 1.0)
                         << degrees << " degrees, squashed by " << squash << " at " << axis << ", "
                         << em << " pixels an em";
                 }
