@@ -107,7 +107,7 @@ protected:
         update(*scene);
         // Another thread looks at the store.
         osg::ref_ptr<osg::Image> shown = before;
-        for (int i = 0; i < 100 && !isOther(*shown, *before); ++i)
+        for (int i = 0; i < 1000 && !isOther(*shown, *before); ++i)
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
             shown = view(scene);
@@ -162,7 +162,7 @@ TEST_F(OsgTileStoreViewGLTest, withoutPhotographsAnUpdateKeepsThePictureAndSaysS
             std::filesystem::remove(each.path());
     support::NotifyCapture notes;
     scene->update();
-    for (int i = 0; i < 100 && !(i > 0 && scene->isAtRest()); ++i)
+    for (int i = 0; i < 1000 && !(i > 0 && scene->isAtRest()); ++i)
         view(scene);
     EXPECT_FALSE(isOther(*view(scene), *before));
     EXPECT_FALSE(notes.takeWarnings().empty());

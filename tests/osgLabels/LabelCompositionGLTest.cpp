@@ -99,10 +99,10 @@ void expectSame(osg::Node& model, const std::string& name, support::HeadlessView
     EXPECT_GT(changedShare(*b, *shadowsAlone), 0.01) << "no labels";
 }
 
-/// Draws frames until there are as many labels, at most ten seconds.
+/// Draws frames until there are as many labels, at most a minute.
 bool waitForLabels(LabelScene& scene, double count)
 {
-    for (int i = 0; i < 100 && countOf(scene, "labels.drawables") != count; ++i)
+    for (int i = 0; i < 600 && countOf(scene, "labels.drawables") != count; ++i)
     {
         render(scene, fromFront(), Width, Height, 1);
         std::this_thread::sleep_for(std::chrono::milliseconds(i < 5 ? 0 : 100));

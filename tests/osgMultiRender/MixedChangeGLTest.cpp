@@ -46,7 +46,7 @@ protected:
     /// Draws until nothing is made any more.
     void drawUntil(double linked)
     {
-        for (int i = 0; i < 500 && count("mix.programs.linked") < linked; ++i)
+        for (int i = 0; i < 20000 && count("mix.programs.linked") < linked; ++i)
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
             draw();
@@ -144,7 +144,7 @@ TEST_F(MixedChangeGLTest, theLastProgramStaysUntilTheNextOneIsLinked)
     EXPECT_GT(leaves, 0.0);
     _scene->setRendering(red, plain("green", "vec4(0.0, 1.0, 0.0, 1.0)"));
     std::set<std::uint32_t> seen;
-    for (int i = 0; i < 500 && !seen.count(0x00ff00); ++i)
+    for (int i = 0; i < 20000 && !seen.count(0x00ff00); ++i)
     {
         const std::set<std::uint32_t> now = colors(*draw());
         ASSERT_EQ(now.size(), 1u) << "a picture of two programs";

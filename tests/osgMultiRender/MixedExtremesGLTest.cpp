@@ -53,7 +53,7 @@ TEST_F(MixedExtremesGLTest, aRenderingThatAlwaysDiscardsLeavesTheOthers)
     _scene->removeRendering(1);
     const osg::Vec4 behind = support::HeadlessSettings().clearColor;
     osg::Vec4 seen;
-    for (int i = 0; i < 200 && (seen = color()) != behind; ++i) // merged meanwhile
+    for (int i = 0; i < 20000 && (seen = color()) != behind; ++i) // merged meanwhile
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     EXPECT_EQ(seen, behind) << "all discard, so nothing is drawn";
     EXPECT_EQ(capture.takeWarnings(), support::NotifyCapture::Lines());
@@ -133,7 +133,7 @@ TEST_F(MixedExtremesGLTest, aHundredImportsOfOneFileShowWhatOneDoes)
     _scene->setRules(rules);
     support::NotifyCapture capture;
     osg::Vec4 all;
-    for (int i = 0; i < 100 && _scene->getSource().find("own_99") == std::string::npos; ++i)
+    for (int i = 0; i < 20000 && _scene->getSource().find("own_99") == std::string::npos; ++i)
     {
         all = color();
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -66,7 +66,7 @@ TEST_F(MixedKeysGLTest, filesThatWereEditedAreReadAgain)
     const int green = redPixels();
     folder.write("own.frag", "void main() { gl_FragColor = vec4(1.0, 0.0, 0.0, 1.0); }\n");
     press('R');
-    for (int i = 0; i < 500 && redPixels() == green; ++i)
+    for (int i = 0; i < 20000 && redPixels() == green; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     EXPECT_GT(redPixels(), Size * Size / 8);
 }

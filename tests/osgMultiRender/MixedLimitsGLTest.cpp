@@ -145,7 +145,7 @@ TEST_F(MixedLimitsGLTest, renderingsChangePlacesWhenAnotherOneHasTheLeastWeightA
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     EXPECT_EQ(count("mix.programs.linked"), linked) << "movement compiles nothing";
-    for (int i = 0; i < 300 && planOf("rendering 1 'green'").empty(); ++i)
+    for (int i = 0; i < 20000 && planOf("rendering 1 'green'").empty(); ++i)
     {
         draw();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));

@@ -55,7 +55,7 @@ protected:
 
     void drawUntil(const std::string& what, double least)
     {
-        for (int i = 0; i < 500 && count(what) < least; ++i)
+        for (int i = 0; i < 20000 && count(what) < least; ++i)
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
             draw();
@@ -153,7 +153,7 @@ TEST_F(MixedProgramsGLTest, aMovingNodeOfKeyPointsCompilesNothing)
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     EXPECT_EQ(count("mix.programs.linked"), 1.0);
-    for (int i = 0; i < 200 && count("mix.programs.linked") < 2.0; ++i)
+    for (int i = 0; i < 20000 && count("mix.programs.linked") < 2.0; ++i)
     {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
         _viewer.renderFloat(root, _camera, Size, Size);
@@ -194,7 +194,7 @@ TEST_F(MixedProgramsGLTest, theNewestOneGoesOfAPairThatFailsOnlyTogether)
     ASSERT_EQ(capture.takeWarnings(), support::NotifyCapture::Lines());
     _scene->setRendering(0, blocks("second", 10));
     draw(3);
-    for (int i = 0; i < 200 && planOf("rendering 0").empty(); ++i)
+    for (int i = 0; i < 20000 && planOf("rendering 0").empty(); ++i)
         draw();
     EXPECT_EQ(planOf("rendering 0 'red'"), "as it was before a change that can't be used");
     EXPECT_EQ(planOf("rendering 1"), "") << "it is older and stays";
@@ -204,7 +204,7 @@ TEST_F(MixedProgramsGLTest, theNewestOneGoesOfAPairThatFailsOnlyTogether)
     EXPECT_NE(warnings[2].find("rendering 'second' is left out"), std::string::npos);
     // Without the other one it is tried again.
     EXPECT_TRUE(_scene->removeRendering(first));
-    for (int i = 0; i < 200 && !planOf("rendering 0").empty(); ++i)
+    for (int i = 0; i < 20000 && !planOf("rendering 0").empty(); ++i)
         draw();
     draw(40);
     EXPECT_EQ(planOf("rendering 0"), "");

@@ -159,7 +159,7 @@ TEST_F(PagedFaultsGLTest, twoContextsShowTheSame)
     const std::string city = paged::writeCity(_folder, 2, 2, 128);
     const osg::ref_ptr<PagedScene> scene = paged::read(city);
     support::HeadlessViewer other;
-    for (int i = 0; i < 200 && paged::countOf(*scene, "textures.resident") < 4.0; ++i)
+    for (int i = 0; i < 6000 && paged::countOf(*scene, "textures.resident") < 4.0; ++i)
     {
         _viewer.render(scene, paged::lookAlong(), 320, 240);
         other.render(scene, paged::lookAlong(), 320, 240);

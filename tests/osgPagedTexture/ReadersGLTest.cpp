@@ -258,7 +258,7 @@ TEST_F(ReadersGLTest, whatPagedLodsReadLaterIsPagedToo)
     lod->setRadius(2.0);
     ASSERT_TRUE(osgDB::writeNodeFile(*lod, _folder.file("lod.osgt")));
     const osg::ref_ptr<PagedScene> scene = paged::read(_folder.file("lod.osgt"), Plain);
-    for (int i = 0; i < 200 && paged::countOf(*scene, "textures") == 0.0; ++i)
+    for (int i = 0; i < 6000 && paged::countOf(*scene, "textures") == 0.0; ++i)
     {
         draw(scene);
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -107,7 +107,7 @@ TEST_F(VirtualPagerFaultTest, aStoreThatIsDeletedGoesOnAndIsNamed)
     show(pager, store, 0, 4, 4, 4, 4);
     fs::remove(store);
     std::vector<std::string> messages;
-    for (int i = 0; i < 1000 && messages.empty(); ++i)
+    for (int i = 0; i < 30000 && messages.empty(); ++i)
     {
         pager.advance(++frame);
         messages = pager.takeMessages();

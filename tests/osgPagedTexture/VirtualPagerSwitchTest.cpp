@@ -140,7 +140,7 @@ TEST_F(VirtualPagerSwitchTest, aCameraThatMovesDoesNotKeepTheOldState)
     source.update(store, 2);
     pager.invalidate(0);
     int frames = 0;
-    for (; frames < 2000 && pager.getStatistics().switches == 0; ++frames)
+    for (; frames < 30000 && pager.getStatistics().switches == 0; ++frames)
     {
         pager.report(0, needsOf(grid, 0, 0, frames % 30, frames % 20, 5, 5));
         pager.advance(++frame);
@@ -179,7 +179,7 @@ TEST_F(VirtualPagerSwitchTest, aCommitOfAnotherProcessIsSeenByTheWatch)
     VirtualPager pager(settings);
     show(pager, store, 0, 4, 4, 6, 6);
     source.update(store, 3);
-    for (int i = 0; i < 1000 && model.versions(0, grid) != std::set<int>{3}; ++i)
+    for (int i = 0; i < 30000 && model.versions(0, grid) != std::set<int>{3}; ++i)
     {
         pager.advance(++frame);
         model.apply(pager.takeUploads(0, 5 * pageBytes));
@@ -191,7 +191,7 @@ TEST_F(VirtualPagerSwitchTest, aCommitOfAnotherProcessIsSeenByTheWatch)
     // And one whose file takes the place of the old one.
     source.build(folder.file("other.tiles"), 4);
     fs::rename(folder.file("other.tiles"), store);
-    for (int i = 0; i < 1000 && model.versions(0, grid) != std::set<int>{4}; ++i)
+    for (int i = 0; i < 30000 && model.versions(0, grid) != std::set<int>{4}; ++i)
     {
         pager.advance(++frame);
         model.apply(pager.takeUploads(0, 5 * pageBytes));
@@ -208,7 +208,7 @@ TEST_F(VirtualPagerSwitchTest, bothContextsSwitchEachAtOnce)
     ContextModel second;
     for (int round = 0; round < 2; ++round)
     {
-        for (int i = 0; i < 2000 && (i < 3 || !pager.isAtRest()); ++i)
+        for (int i = 0; i < 30000 && (i < 3 || !pager.isAtRest()); ++i)
         {
             pager.advance(++frame);
             model.apply(pager.takeUploads(0, 5 * pageBytes));

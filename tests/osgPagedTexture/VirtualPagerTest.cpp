@@ -148,7 +148,7 @@ TEST_F(VirtualPagerTest, aContextThatComesLaterGetsAllThatIsInView)
     ContextModel second;
     second.apply(pager.takeUploads(7, 1));
     EXPECT_FALSE(pager.isAtRest());
-    for (int i = 0; i < 2000 && !pager.isAtRest(); ++i)
+    for (int i = 0; i < 30000 && !pager.isAtRest(); ++i)
     {
         pager.advance(++frame);
         model.apply(pager.takeUploads(0, 2000));
