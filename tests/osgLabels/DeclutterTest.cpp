@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -264,19 +263,20 @@ TEST(DeclutterTest, aLabelChangesTwiceASecondAtMostHoweverFastTheCameraIs)
     EXPECT_GT(changesOf({0.0f, 0.0}, 300.0).first, 2);
 }
 
-TEST(DeclutterTest, timeGrowsWithTheNumberOfLabelsEvenAtOnePoint)
+TEST(DeclutterTest, aHundredThousandLabelsMayBeAtOnePoint)
 {
-    const auto secondsOf = [](std::vector<DeclutterLabel> labels)
+    // Of three frames the last. Where all are compared with all this takes minutes.
+    const auto shownOf = [](std::vector<DeclutterLabel> labels)
     {
         Declutter declutter;
-        const auto start = std::chrono::steady_clock::now();
+        Shown shown;
         for (int frame = 0; frame < 3; ++frame)
         {
             for (DeclutterLabel& label : labels)
                 label.rectangle.low.x -= 0.25f;
-            declutter.update(labels, View, frame * 0.1);
+            shown = declutter.update(labels, View, frame * 0.1);
         }
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return std::count(shown.begin(), shown.end(), 1);
     };
     std::vector<DeclutterLabel> stack, specks;
     for (std::uint64_t i = 0; i < 100000; ++i)
@@ -285,7 +285,6 @@ TEST(DeclutterTest, timeGrowsWithTheNumberOfLabelsEvenAtOnePoint)
         const float x = 400.0f + float(i % 300) * 1e-3f, y = 300.0f + float(i / 300) * 1e-3f;
         specks.push_back({{{x, y}, {x + 5e-4f, y + 5e-4f}}, 1.0, i});
     }
-    // Quadratic ones take minutes; 3 frames take 0.1 s on one core of 2.5 GHz.
-    EXPECT_LT(secondsOf(stack), 2.0);
-    EXPECT_LT(secondsOf(specks), 2.0);
+    EXPECT_EQ(shownOf(stack), 1);
+    EXPECT_EQ(shownOf(specks), 1) << "all are within the margin of the first";
 }

@@ -9,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -207,9 +206,9 @@ TEST(GlslTokenTest, lineCommentsGoOnBehindABackslash)
     EXPECT_EQ(words("// a \\\n b\nc", Kind::Comment), (Words{"// a \\\n b"}));
 }
 
-TEST(GlslTokenTest, megabytesOfBracketsAreReadInLinearTime)
+TEST(GlslTokenTest, megabytesOfBracketsAreRead)
 {
-    const auto start = std::chrono::steady_clock::now();
+    // A step that is quadratic would take longer than the suite lets a test run.
     for (const std::string unit : {"(", "{", "[", "if(", "a[", "/*", "#if X\n", "for(;;)", "else "})
     {
         std::string text;
@@ -219,7 +218,4 @@ TEST(GlslTokenTest, megabytesOfBracketsAreReadInLinearTime)
         }
         EXPECT_EQ(parseGlsl(text).tokens.back().end, text.size());
     }
-    // A minute, for sanitizers on a busy machine, is far from what it takes, and far from what a
-    // quadratic step would.
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(60));
 }

@@ -25,7 +25,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -55,17 +54,13 @@ class Probe : public osg::Group
 public:
     TransparentCasters transparent = TransparentCasters::BY_ALPHA;
     std::unique_ptr<CasterCollector> collector;
-    double seconds = 0.0;
 
     void traverse(osg::NodeVisitor& visitor) override
     {
         if (osgUtil::CullVisitor* view = visitor.asCullVisitor())
         {
-            const auto start = std::chrono::steady_clock::now();
             collector = std::make_unique<CasterCollector>(*view, transparent);
             collector->collect(*this);
-            seconds =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         }
         osg::Group::traverse(visitor);
     }
@@ -442,7 +437,7 @@ TEST(CasterCollectorTest, staticGeometriesUnderOneMatrixAreOneCaster)
     EXPECT_NE(casters[2].modelview, casters[0].modelview);
 }
 
-TEST(CasterCollectorTest, thirtyThousandDrawablesTakeMilliseconds)
+TEST(CasterCollectorTest, thirtyThousandDrawablesAreAllFound)
 {
     osg::ref_ptr<osg::Group> group = new osg::Group;
     for (int i = 0; i < 30000; ++i)
@@ -452,14 +447,6 @@ TEST(CasterCollectorTest, thirtyThousandDrawablesTakeMilliseconds)
         place->addChild(triangle());
         group->addChild(place);
     }
-    double seconds = 1e9;
-    for (int run = 0; run < 5; ++run) // The first one computes bounds.
-    {
-        const osg::ref_ptr<Probe> probe = collect({group});
-        EXPECT_EQ(probe->collector->getCasters().size(), 30000u);
-        seconds = std::min(seconds, probe->seconds);
-    }
-    std::cout << "30000 drawables, each under a matrix: " << 1e3 * seconds << " ms\n";
-    // Far above what it takes alone, for machines under load.
-    EXPECT_LT(seconds, 0.5);
+    for (int run = 0; run < 2; ++run) // The first one computes bounds.
+        EXPECT_EQ(collect({group})->collector->getCasters().size(), 30000u);
 }

@@ -179,7 +179,7 @@ TEST(LightGrid, pointsOutsideFallIntoTheNearestCell)
     EXPECT_LE(grid.getSize().z, 256);
 }
 
-TEST(LightGrid, takesNoLongAndNoLargeListsFor65536Lights)
+TEST(LightGrid, takesNoLargeListsFor65536Lights)
 {
     std::size_t reaching = 0;
     RandomLights random(16);
@@ -198,8 +198,6 @@ TEST(LightGrid, takesNoLongAndNoLargeListsFor65536Lights)
         std::printf("reach %4.2f of the box: %zu cells, %zu pairs, %.0f ms\n", share,
                     grid.getOffsets().size() - 1, grid.getIndices().size(), time.count() * 1e3);
         EXPECT_LE(grid.getIndices().size(), std::size_t(4) << 20);
-        // Some 0.1 s here; sanitizers and a busy machine take longer, an unbounded grid minutes.
-        EXPECT_LT(time.count(), 5.0);
         ASSERT_NO_FATAL_FAILURE(expectCellsListAllThatReaches(scene, random, 3, reaching));
     }
     EXPECT_GT(reaching, 1000u);
