@@ -99,6 +99,7 @@ void addByHand(osg::StateSet& stateSet, const MixTask& task)
     for (const Rendering& rendering : task.renderings)
         addMixUniforms(stateSet, rendering,
                        [&](const std::string& name) { return rendering.name + "_" + name; });
+    stateSet.addUniform(new osg::Uniform("lights", 1)); // as the renderings' osg_EnabledLights
 }
 
 osg::ref_ptr<osg::Group> makeGroup(osg::StateSet* stateSet, osg::Node* model)

@@ -14,6 +14,7 @@ in vec4 color;
 in vec2 place;
 #endif
 
+uniform int lights; // bits of the numbers of those that are on
 uniform float phong_gloss, phong_highlight;
 uniform sampler2D textured_image;
 uniform float textured_shading;
@@ -112,21 +113,75 @@ vec3 wood(vec3 wide)
 }
 #endif
 
+// The unit vector to a light, and how much of it arrives.
+vec4 lightAt(int number)
+{
+    vec4 source = gl_LightSource[number].position;
+    vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - eyePosition;
+    float far = max(length(way), 1e-20);
+    vec4 light = vec4(way / far, 1.0);
+    if (source.w != 0.0)
+        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+                                far * (gl_LightSource[number].linearAttenuation +
+                                       far * gl_LightSource[number].quadraticAttenuation),
+                            1e-30);
+    if (gl_LightSource[number].spotCutoff <= 90.0)
+    {
+        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
+        light.w *= cone < gl_LightSource[number].spotCosCutoff
+                       ? 0.0
+                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
+    }
+    return light;
+}
+
+float brightness(vec3 light)
+{
+    return max(max(light.r, light.g), light.b);
+}
+
 void main()
 {
     osgmr_mixAt(eyePosition);
     vec3 toEye = -normalize(eyePosition);
     vec3 normal = normalize(eyeNormal);
     normal = faceforward(normal, eyePosition, normal);
-    vec4 source = gl_LightSource[0].position;
-    vec3 toLight = normalize(source.w == 0.0 ? source.xyz : source.xyz / source.w - eyePosition);
-    float cosine = dot(normal, toLight);
-    float diffuse = max(cosine, 0.0);
-    float mirrored = dot(reflect(-toLight, normal), toEye);
+    vec3 diffuse = vec3(0.0);
+    vec3 glossy = vec3(0.0);
+#if COUNT > 4
+    float most = -1.0, highlight = 0.0;
+#endif
+#if COUNT > 7
+    vec3 polished = vec3(0.0);
+#endif
+    for (int i = 0, on = lights; on > 0; ++i, on >>= 1)
+    {
+        if ((on & 1) == 0)
+            continue;
+        vec4 light = lightAt(i);
+        vec3 arrives = light.w * gl_LightSource[i].diffuse.rgb;
+        float cosine = dot(normal, light.xyz);
+        float mirrored = dot(reflect(-light.xyz, normal), toEye);
+        diffuse += max(cosine, 0.0) * arrives;
+        if (cosine > 0.0)
+        {
+            glossy += pow(max(mirrored, 1e-6), phong_gloss) * arrives;
+#if COUNT > 7
+            polished += pow(max(mirrored, 1e-6), 20.0) * arrives;
+#endif
+        }
+#if COUNT > 4
+        float power = light.w * brightness(gl_LightSource[i].diffuse.rgb);
+        most = max(most, power * cosine);
+        highlight =
+            max(highlight, min(power, 1.0) * smoothstep(0.93, 0.99, max(mirrored, 0.0)));
+#endif
+    }
     float facing = dot(normal, toEye);
     vec3 surface = gl_FrontMaterial.diffuse.rgb * color.rgb;
 #if COUNT > 3
-    float tone = diffuse * (toon_tones - 0.01);
+    float bright = brightness(diffuse);
+    float tone = min(bright, 1.0) * (toon_tones - 0.01);
     float tonePixel = max(fwidth(tone), 1e-5);
     float facingPixel = max(fwidth(facing), 0.02);
 #endif
@@ -137,16 +192,14 @@ void main()
     vec4 sum = vec4(0.0);
     float weight = osgmr_weight(0);
     if (weight > 0.0)
-    {
-        float specular = diffuse > 0.0 ? phong_highlight * pow(max(mirrored, 1e-6), phong_gloss) : 0.0;
-        sum += weight * vec4(surface * (0.15 + 0.85 * diffuse) + specular, 1.0);
-    }
+        sum += weight * vec4(surface * (0.15 + 0.85 * diffuse) + phong_highlight * glossy, 1.0);
 #if COUNT > 1
     vec4 texel = texture(textured_image, place);
     weight = osgmr_weight(1);
     if (weight > 0.0)
-        sum += weight *
-               vec4(texel.rgb * color.rgb * mix(1.0, 0.2 + 0.8 * diffuse, textured_shading), 1.0);
+        sum += weight * vec4(texel.rgb * color.rgb *
+                                 mix(vec3(1.0), 0.2 + 0.8 * diffuse, textured_shading),
+                             1.0);
 #endif
 #if COUNT > 2
     weight = osgmr_weight(2);
@@ -162,18 +215,19 @@ void main()
         float shade = mix(0.3, 1.0, clamp(step / (toon_tones - 1.0), 0.0, 1.0));
         float line = toon_outline * facingPixel;
         float ink = toon_outline > 0.0 ? smoothstep(0.5 * line, line, facing) : 1.0;
-        sum += weight * vec4(surface * shade * ink, 1.0);
+        vec3 hue = bright > 1e-4 ? diffuse / bright : vec3(1.0);
+        sum += weight * vec4(surface * hue * shade * ink, 1.0);
     }
 #endif
 #if COUNT > 4
     weight = osgmr_weight(4);
     if (weight > 0.0)
     {
-        float warmth = clamp(0.35 + 0.65 * cosine, 0.0, 1.0);
+        float warmth = clamp(0.35 + 0.65 * most, 0.0, 1.0);
         vec3 shown = mix(mix(gooch_cool, surface, gooch_tint), mix(gooch_warm, surface, gooch_tint),
                          warmth);
         float line = 1.5 * facingPixel;
-        shown = mix(shown, vec3(1.0), 0.6 * smoothstep(0.93, 0.99, max(mirrored, 0.0)));
+        shown = mix(shown, vec3(1.0), 0.6 * highlight);
         sum += weight * vec4(shown * smoothstep(0.5 * line, line, facing), 1.0);
     }
 #endif
@@ -194,9 +248,7 @@ void main()
 #if COUNT > 7
     weight = osgmr_weight(7);
     if (weight > 0.0)
-        sum += weight * vec4(wood(wide) * (0.25 + 0.75 * diffuse) +
-                                 0.12 * pow(max(mirrored, 1e-6), 20.0),
-                             1.0);
+        sum += weight * vec4(wood(wide) * (0.25 + 0.75 * diffuse) + 0.12 * polished, 1.0);
 #endif
     gl_FragColor = osgmr_mixed(sum);
 }
