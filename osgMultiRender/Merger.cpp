@@ -353,6 +353,16 @@ private:
     std::vector<MergeVector> _vectors;
 };
 
+/// In place of the uniform, wherever it is declared as MixLights.h says.
+void writeLights(std::string& source, int lights)
+{
+    const std::string kind = "uniform", declaration = " int osg_EnabledLights";
+    const std::size_t at = source.find(kind + declaration + ";");
+    if (at != std::string::npos)
+        source.replace(at, kind.size() + declaration.size(),
+                       "const" + declaration + " = " + std::to_string(lights));
+}
+
 } // namespace
 
 const MergedUniform* Merged::findUniform(std::size_t rendering, const std::string& name) const
@@ -376,7 +386,11 @@ std::string Merged::nameOf(std::size_t rendering, const std::string& name) const
 
 Merged mergeRenderings(const std::vector<MergeEntry>& entries, const MergeOptions& options)
 {
-    return Merge(entries, options).run();
+    Merged merged = Merge(entries, options).run();
+    if (options.lights != MergeOptions::AnyLights)
+        for (std::string* source : {&merged.vertex, &merged.fragment})
+            writeLights(*source, options.lights);
+    return merged;
 }
 
 } // namespace osgMultiRender

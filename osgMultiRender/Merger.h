@@ -62,6 +62,11 @@ struct MergeOptions
     /// gl_LightSource, gl_LightModel, materials and their products are those of RenderingState, for
     /// renderings whose description holds them; else the context's, as for all others.
     bool ownLighting = false;
+    /// Bits of the GL lights that are on: a constant in place of a `uniform int osg_EnabledLights`,
+    /// so that compilers unroll loops over lights and compute once what renderings have in common
+    /// of them. AnyLights: it stays a uniform.
+    static constexpr int AnyLights = -1;
+    int lights = AnyLights;
     bool skipZeroWeights = true; ///< Branch around renderings of weight 0 where that is defined.
     bool share = true;           ///< Equal functions, constants, structs and varyings once.
     MergeLimits limits;

@@ -12,7 +12,8 @@ namespace osgMultiRender
 ///
 ///     uniform int osg_EnabledLights; // = 1
 ///
-/// gets the bits of their numbers, 0 to 7, for each drawable.
+/// gets the bits of their numbers, 0 to 7, for each drawable. Where nothing moves programs are made
+/// in which they are a constant (MergeOptions::lights).
 class MixLights
 {
 public:

@@ -9,6 +9,8 @@
 #include <osgUtil/CullVisitor>
 #include <osgUtil/RenderLeaf>
 
+#include <algorithm>
+
 namespace osgMultiRender
 {
 
@@ -117,13 +119,30 @@ MixSet MixPass::setOf(const osgUtil::RenderLeaf& leaf) const
     return set;
 }
 
-SurfaceLook* MixPass::look(const SurfaceState&, const osgUtil::RenderLeaf& leaf)
+/// Where no rendering asks for them all lights are the same.
+int MixPass::lightsOf(const SurfaceState& state, const MixSet& set) const
+{
+    const std::vector<MixSlot>& slots = _draw.getSnapshot().slots;
+    if (std::none_of(set.members.begin(), set.members.end(),
+                     [&](const MixSet::Member& member)
+                     { return slots[member.slot].rendering->findUniform("osg_EnabledLights"); }))
+        return MergeOptions::AnyLights;
+    int lights = 0;
+    for (unsigned int number = 0; number < SurfaceState::MaxGLLights; ++number)
+        lights |= state.isLightOn(number) << number;
+    return lights;
+}
+
+SurfaceLook* MixPass::look(const SurfaceState& state, const osgUtil::RenderLeaf& leaf)
 {
     if (!_draw.getFrame().all)
         return nullptr;
-    MixSet set = _draw.getSnapshot().prunes ? setOf(leaf) : _draw.getFrame().all->getSet();
+    const bool prunes = _draw.getSnapshot().prunes;
+    MixSet set = prunes ? setOf(leaf) : _draw.getFrame().all->getSet();
     if (set.members.empty()) // the background: any program draws it
         set = _draw.getFrame().all->getSet();
+    else if (prunes)
+        set.lights = lightsOf(state, set);
     const auto [found, isNew] = _sets.try_emplace(set);
     if (isNew)
         found->second.program = _draw.getResources().programs.find(set);
@@ -142,7 +161,8 @@ void MixPass::end(osg::RenderInfo& renderInfo)
         return;
     std::map<MixSet, unsigned int> missing;
     for (const auto& [set, shown] : _sets)
-        if (!shown.program && set.members != _draw.getFrame().all->getSet().members)
+        if (!shown.program && (set.lights != MergeOptions::AnyLights ||
+                               set.members != _draw.getFrame().all->getSet().members))
             missing[set] = shown.leaves;
     _draw.getResources().programs.makeWanted(missing, _draw.shareSnapshot(), _keysToScene,
                                              *renderInfo.getState(),

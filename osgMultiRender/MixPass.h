@@ -38,7 +38,7 @@ public:
 private:
     struct Shown
     {
-        osg::ref_ptr<MixProgram> program; ///< Of exactly this set; null: there is none yet.
+        osg::ref_ptr<MixProgram> program; ///< Of this set; null: there is none yet.
         unsigned int leaves = 0;
     };
 
@@ -47,6 +47,7 @@ private:
     MixBox boxOf(const osgUtil::RenderLeaf& leaf, double& margin) const;
     std::vector<MixPart> partsOf(const SurfaceFrame& frame) const;
     MixSet setOf(const osgUtil::RenderLeaf& leaf) const;
+    int lightsOf(const SurfaceState& state, const MixSet& set) const;
     std::string nameOf(const MixSet& set) const;
 
     MixDraw _draw;

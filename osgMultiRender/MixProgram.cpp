@@ -137,6 +137,7 @@ Merged mergeSet(const MixSet& set, const MixSnapshot& snapshot, const MergeLimit
     }
     options.limits = limits;
     options.ownLighting = set.ownLighting;
+    options.lights = set.lights;
     options.weights = weightsOf(set, snapshot.isOfFrame);
     if (!set.isWhole)
     {

@@ -17,6 +17,7 @@ namespace osgMultiRender
 
 /// Which renderings a program shows: slots in order. `isWhole`: the only one, everywhere at 1.
 /// `isTransparent`: fragments of alpha 0 are left out. `ownLighting`: as MergeOptions has it.
+/// `lights`: likewise.
 struct MixSet
 {
     struct Member
@@ -34,16 +35,19 @@ struct MixSet
     bool isWhole = false;
     bool isTransparent = false;
     bool ownLighting = false;
+    int lights = MergeOptions::AnyLights;
 
     bool operator<(const MixSet& other) const
     {
-        return std::tie(isWhole, isTransparent, ownLighting, members) <
-               std::tie(other.isWhole, other.isTransparent, other.ownLighting, other.members);
+        return std::tie(isWhole, isTransparent, ownLighting, lights, members) <
+               std::tie(other.isWhole, other.isTransparent, other.ownLighting, other.lights,
+                        other.members);
     }
     bool operator==(const MixSet& other) const
     {
         return isWhole == other.isWhole && isTransparent == other.isTransparent &&
-               ownLighting == other.ownLighting && members == other.members;
+               ownLighting == other.ownLighting && lights == other.lights &&
+               members == other.members;
     }
     bool has(std::uint16_t slot) const;
 };

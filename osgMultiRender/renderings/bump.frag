@@ -12,6 +12,15 @@ varying vec3 modelPosition;
 varying vec3 modelNormal;
 varying vec4 color;
 
+// The number behind that of the highest light that is on. Loops count down to it: indexed by their
+// counter, compilers unroll them for all eight lights.
+int lightsEnd()
+{
+    int on = osg_EnabledLights;
+    return on > 15 ? on > 63 ? on > 127 ? 8 : 7 : on > 31 ? 6 : 5
+                   : on > 3 ? on > 7 ? 4 : 3 : on > 1 ? 2 : on;
+}
+
 // The unit vector to a light, and how much of it arrives: by distance and cone.
 vec4 lightAt(int number, vec3 position)
 {
@@ -38,9 +47,10 @@ vec4 lightAt(int number, vec3 position)
 vec3 diffuseLight(vec3 normal, vec3 position)
 {
     vec3 sum = vec3(0.0);
-    int on = osg_EnabledLights;
-    for (int i = 0; on > 0; ++i)
+    int on = osg_EnabledLights, end = lightsEnd();
+    for (int left = end; left > 0; --left)
     {
+        int i = end - left;
         if (on - on / 2 * 2 == 1)
         {
             vec4 light = lightAt(i, position);
@@ -56,9 +66,10 @@ vec3 mirroredLight(vec3 normal, vec3 position, float gloss)
 {
     vec3 sum = vec3(0.0);
     vec3 toEye = -normalize(position);
-    int on = osg_EnabledLights;
-    for (int i = 0; on > 0; ++i)
+    int on = osg_EnabledLights, end = lightsEnd();
+    for (int left = end; left > 0; --left)
     {
+        int i = end - left;
         if (on - on / 2 * 2 == 1)
         {
             vec4 light = lightAt(i, position);

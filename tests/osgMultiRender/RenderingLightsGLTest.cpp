@@ -147,6 +147,49 @@ TEST_F(RenderingLightsGLTest, aLightThatIsOffCountsForNothingAndNumberThreeAsNum
     }
 }
 
+TEST_F(RenderingLightsGLTest, lightsAreWrittenIntoTheProgramWhereNothingMoves)
+{
+    constexpr unsigned int settle = 2, settled = 3 * settle + 4;
+    _scene->setSettleFrames(settle);
+    _scene->addRendering(importNamed("phong"));
+    _scene->addChild(_dome);
+    const osg::ref_ptr<osg::Group> root = new osg::Group;
+    osg::StateSet* state = root->getOrCreateStateSet();
+    for (const auto& light : {makeLight(0, Kind::Directional, Blue, {2, 1, 1}),
+                              makeLight(3, Kind::Spot, Red, {-2, 1, 2})})
+    {
+        const osg::ref_ptr<osg::LightSource> source = new osg::LightSource;
+        source->setLight(light);
+        root->addChild(source);
+        state->setMode(GL_LIGHT0 + unsigned(light->getLightNum()), osg::StateAttribute::ON);
+    }
+    root->addChild(_scene);
+    const auto drawn = [&](unsigned int frames)
+    {
+        return osg::clone(_viewer.renderFloat(root, _camera, Size, Size, frames).get(),
+                          osg::CopyOp::DEEP_COPY_ALL);
+    };
+    const osg::ref_ptr<osg::Image> first = drawn(1);
+    const double linked = count("mix.programs.linked");
+    const osg::ref_ptr<osg::Image> later = drawn(settled);
+    EXPECT_EQ(count("mix.programs.linked"), linked + 1.0);
+    // Compilers order sums of equal terms as they like.
+    EXPECT_LE(worstOf(*first, *later), 0.01);
+    drawn(settled);
+    EXPECT_EQ(count("mix.programs.linked"), linked + 1.0);
+
+    state->setMode(GL_LIGHT3, osg::StateAttribute::OFF);
+    const osg::ref_ptr<osg::Image> switched = drawn(1);
+    EXPECT_EQ(count("mix.programs.linked"), linked + 1.0);
+    EXPECT_GT(worstOf(*switched, *later), 10.0);
+    EXPECT_LE(worstOf(*switched, *drawn(settled)), 0.01);
+    EXPECT_EQ(count("mix.programs.linked"), linked + 2.0);
+    state->setMode(GL_LIGHT3, osg::StateAttribute::ON);
+    EXPECT_LE(worstOf(*drawn(1), *later), 0.01);
+    drawn(settled);
+    EXPECT_EQ(count("mix.programs.linked"), linked + 2.0) << "it has been kept";
+}
+
 TEST_F(RenderingLightsGLTest, allSurfacesWithShadingKnowTheLights)
 {
     int number = 0;

@@ -69,6 +69,7 @@ void addMerged(osg::StateSet& stateSet, const MixTask& task, std::size_t first, 
     options.begin = "osgmr_mixBegin();";
     options.beginAt = "osgmr_mixAt";
     options.outside = outside;
+    options.lights = 1; // as where nothing moves
     const Merged merged = osgMultiRender::mergeRenderings(entries, options);
     for (std::size_t i = 0; i < entries.size(); ++i)
     {
@@ -91,7 +92,7 @@ std::string readText(const std::string& name)
 
 void addByHand(osg::StateSet& stateSet, const MixTask& task)
 {
-    const std::string head = "#version 330 compatibility\n#define COUNT " +
+    const std::string head = "#version 330 compatibility\n#define LIGHTS 1\n#define COUNT " +
                              std::to_string(task.renderings.size()) + "\n";
     stateSet.setAttribute(
         makeProgram(head + readText("mix.vert"),
@@ -99,7 +100,6 @@ void addByHand(osg::StateSet& stateSet, const MixTask& task)
     for (const Rendering& rendering : task.renderings)
         addMixUniforms(stateSet, rendering,
                        [&](const std::string& name) { return rendering.name + "_" + name; });
-    stateSet.addUniform(new osg::Uniform("lights", 1)); // as the renderings' osg_EnabledLights
 }
 
 osg::ref_ptr<osg::Group> makeGroup(osg::StateSet* stateSet, osg::Node* model)

@@ -23,7 +23,8 @@ using precision::MixTask;
 using precision::Outcome;
 
 constexpr int PictureSize = 384;
-/// A MixedScene makes one program a frame for those drawables that need fewer renderings.
+/// A MixedScene makes one program a frame for those drawables that need fewer renderings or have
+/// other lights.
 constexpr int SettlingFrames = 60;
 
 /// Of all threads of the program: a software renderer works in several, and others may be busy.
@@ -47,6 +48,7 @@ osg::ref_ptr<osg::Node> makeModel(osg::Image& image)
             sample->addChild(place);
         }
     sample->getOrCreateStateSet()->setMode(GL_NORMALIZE, osg::StateAttribute::ON);
+    sample->getOrCreateStateSet()->setMode(GL_LIGHT0, osg::StateAttribute::ON);
     return sample;
 }
 

@@ -14,7 +14,6 @@ in vec4 color;
 in vec2 place;
 #endif
 
-uniform int lights; // bits of the numbers of those that are on
 uniform float phong_gloss, phong_highlight;
 uniform sampler2D textured_image;
 uniform float textured_shading;
@@ -154,10 +153,8 @@ void main()
 #if COUNT > 7
     vec3 polished = vec3(0.0);
 #endif
-    for (int i = 0, on = lights; on > 0; ++i, on >>= 1)
+    for (int i = 0; i < LIGHTS; ++i)
     {
-        if ((on & 1) == 0)
-            continue;
         vec4 light = lightAt(i);
         vec3 arrives = light.w * gl_LightSource[i].diffuse.rgb;
         float cosine = dot(normal, light.xyz);
