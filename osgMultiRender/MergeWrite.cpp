@@ -262,19 +262,36 @@ private:
         const std::string begin =
             eye.empty() ? _options.begin : _options.beginAt + "(" + eye + ");";
         _text += begin.empty() ? "" : "    " + begin + "\n";
-        for (const MergeProgram* program : _programs)
+        // What is computed in each fragment comes first: compilers use it again within branches.
+        for (const bool branches : {false, true})
         {
-            rendering(*program);
+            for (const MergeProgram* program : _programs)
+            {
+                if (isBranch(*program) == branches)
+                {
+                    rendering(*program);
+                }
+            }
         }
         result();
         _text += "}\n";
     }
 
+    bool isBase(const MergeProgram& program) const
+    {
+        return _options.outside == MergeOutside::Base && &program == _base;
+    }
+
+    /// Whether it is computed only where it has weight.
+    bool isBranch(const MergeProgram& program) const
+    {
+        return _options.skipZeroWeights && !program.derivatives && !isBase(program);
+    }
+
     void rendering(const MergeProgram& program)
     {
         const std::string id = std::to_string(program.id);
-        const bool isBase = _options.outside == MergeOutside::Base && &program == _base;
-        const bool branch = _options.skipZeroWeights && !program.derivatives && !isBase;
+        const bool branch = isBranch(program);
         const std::string call =
             "osgmr_c = " + program.fragment.entities.at("main").merged + "();\n";
         _text +=
@@ -283,7 +300,7 @@ private:
         {
             unpack(program, "    ");
             _text += "    " + call;
-            _text += isBase ? "    osgmr_base = osgmr_c;\n" : "";
+            _text += isBase(program) ? "    osgmr_base = osgmr_c;\n" : "";
         }
         _text += "    osgmr_w = osgmr_weight(" + id + ");\n    if (osgmr_w > 0.0)\n    {\n";
         if (branch)

@@ -27,20 +27,17 @@ vec4 lightAt(int number, vec3 position)
     vec4 source = gl_LightSource[number].position;
     vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
     float far = max(length(way), 1e-20);
-    vec4 light = vec4(way / far, 1.0);
-    if (source.w != 0.0)
-        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+    vec3 direction = way / far;
+    float share = 1.0 / max(gl_LightSource[number].constantAttenuation +
                                 far * (gl_LightSource[number].linearAttenuation +
                                        far * gl_LightSource[number].quadraticAttenuation),
                             1e-30);
-    if (gl_LightSource[number].spotCutoff <= 90.0)
-    {
-        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
-        light.w *= cone < gl_LightSource[number].spotCosCutoff
-                       ? 0.0
-                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
-    }
-    return light;
+    float cosine = dot(-direction, normalize(gl_LightSource[number].spotDirection));
+    float cone = pow(max(cosine, 1e-6), gl_LightSource[number].spotExponent);
+    cone = cosine < gl_LightSource[number].spotCosCutoff ? 0.0 : cone;
+    // Choices, not branches: compilers compute equal ones of several renderings once.
+    return vec4(direction, (source.w == 0.0 ? 1.0 : share) *
+                               (gl_LightSource[number].spotCutoff > 90.0 ? 1.0 : cone));
 }
 
 // What a surface gets from the lights that are on: bits of their numbers, lowest first.

@@ -26,20 +26,17 @@ vec4 lightAt(int number, vec3 position)
     vec4 source = gl_LightSource[number].position;
     vec3 way = source.w == 0.0 ? source.xyz : source.xyz / source.w - position;
     float far = max(length(way), 1e-20);
-    vec4 light = vec4(way / far, 1.0);
-    if (source.w != 0.0)
-        light.w = 1.0 / max(gl_LightSource[number].constantAttenuation +
+    vec3 direction = way / far;
+    float share = 1.0 / max(gl_LightSource[number].constantAttenuation +
                                 far * (gl_LightSource[number].linearAttenuation +
                                        far * gl_LightSource[number].quadraticAttenuation),
                             1e-30);
-    if (gl_LightSource[number].spotCutoff <= 90.0)
-    {
-        float cone = dot(-light.xyz, normalize(gl_LightSource[number].spotDirection));
-        light.w *= cone < gl_LightSource[number].spotCosCutoff
-                       ? 0.0
-                       : pow(max(cone, 1e-6), gl_LightSource[number].spotExponent);
-    }
-    return light;
+    float cosine = dot(-direction, normalize(gl_LightSource[number].spotDirection));
+    float cone = pow(max(cosine, 1e-6), gl_LightSource[number].spotExponent);
+    cone = cosine < gl_LightSource[number].spotCosCutoff ? 0.0 : cone;
+    // Choices, not branches: compilers compute equal ones of several renderings once.
+    return vec4(direction, (source.w == 0.0 ? 1.0 : share) *
+                               (gl_LightSource[number].spotCutoff > 90.0 ? 1.0 : cone));
 }
 
 // What a surface gets from the lights that are on: bits of their numbers, lowest first.
@@ -115,7 +112,7 @@ float noise(vec3 at)
 void main()
 {
     vec3 at = modelPosition * rings;
-    vec3 pixel = fwidth(at);
+    vec3 pixel = fwidth(modelPosition) * rings;
     float size = max(max(pixel.x, pixel.y), pixel.z);
     vec3 bent = at + 0.35 * noise(at * vec3(0.5, 0.5, 0.15)) + 0.1 * noise(at * vec3(1.3, 1.3, 0.4));
     float radius = length(bent.xy);
