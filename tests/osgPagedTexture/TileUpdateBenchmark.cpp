@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Updates of a store of 62 photographs against a full build: one photograph changed, several, all.
+// Updates of a store of 62 photographs against a full build: one photograph changed, several, all;
+// and the large picture in 1, 4, 16 and 64 parts, all of them or those that one photograph is in.
 //
 //   TileUpdateBenchmark [side [rounds]]   side of the atlas in pixels, 6144 or more, default 8192
 //
@@ -7,6 +8,7 @@
 // of the same layout.
 #include "PictureFiles.h"
 
+#include <osgPagedTexture/AtlasPicture.h>
 #include <osgPagedTexture/TileUpdate.h>
 
 #include <support/TemporaryFolder.h>
@@ -118,6 +120,15 @@ public:
         return updateTileStore(path(), settings);
     }
 
+    /// The large picture in squares, `side` in a row; those that hold anything of `changed`.
+    std::uint64_t writeParts(int side, const PixelRect& changed)
+    {
+        AtlasPictureSettings settings;
+        settings.path = _folder.file("atlas.tif");
+        settings.partSide = (std::max(_layout.width, _layout.height) + side - 1) / side;
+        return writeAtlas(_layout, _folder.getPath().string(), settings, changed).files.size();
+    }
+
 private:
     support::TemporaryFolder _folder;
     int _width = 0, _height = 0;
@@ -169,10 +180,20 @@ int main(int argc, char** argv)
                     }
                 });
     }
+    const PixelRect all{0, 0, store.getLayout().width, store.getLayout().height};
+    const PixelRect one = store.getLayout().photos[30].getPlace();
+    for (int round = 0; round < rounds; ++round)
+        for (const int partsInRow : {1, 2, 4, 8})
+        {
+            const std::string name = "atlas in " + std::to_string(partsInRow * partsInRow);
+            times[name].push_back(timeOf([&] { return store.writeParts(partsInRow, all); }));
+            times[name + ", one photograph"].push_back(
+                timeOf([&] { return store.writeParts(partsInRow, one); }));
+        }
     for (auto& [what, each] : times)
     {
-        std::printf("%-32s %7.3f s wall, %7.3f s of processor, %7.0f tiles\n", what.c_str(),
-                    median(each, &Time::wall), median(each, &Time::processor),
+        std::printf("%-32s %7.3f s wall, %7.3f s of processor, %7.0f tiles or parts\n",
+                    what.c_str(), median(each, &Time::wall), median(each, &Time::processor),
                     median(each, &Time::tiles));
     }
     return 0;
