@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// mix.glsl against the reference in double precision, through MixState.
+// mix.glsl against the reference in double precision, through MixState; with OSGKITS_LONG at four
+// times as many places and for more numbers of key points.
 #include "osgMultiRender/KeySets.h"
 
 #include <osgMultiRender/MixState.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 using namespace osgMultiRender;
@@ -19,7 +21,8 @@ using namespace osgMultiRender;
 namespace
 {
 
-constexpr int Size = 64; // of the picture: a fragment a place
+const bool isLong = std::getenv("OSGKITS_LONG") != nullptr;
+const int Size = isLong ? 64 : 32; // of the picture: a fragment a place
 constexpr unsigned int MixUnit = 5;
 constexpr double Infinity = std::numeric_limits<double>::infinity();
 
@@ -182,8 +185,11 @@ protected:
 
 TEST_F(MixGLTest, equalsTheReferenceForAllSetsModesViewsAndRules)
 {
+    std::vector<std::size_t> counts = {0, 1, 2, 5, 16, 17, 300, 10000};
+    if (isLong)
+        counts.insert(counts.end(), {3, 40, 1000});
     int kind = 0;
-    for (const std::size_t count : {0, 1, 2, 3, 5, 16, 17, 40, 300, 10000})
+    for (const std::size_t count : counts)
         for (const KeySet& set : makeKeySets(count, 11))
             for (const KeyMode mode : AllKeyModes)
             {
@@ -324,7 +330,7 @@ TEST_F(MixGLTest, colorsMixByTheRules)
     program->addShader(new osg::Shader(
         osg::Shader::FRAGMENT, "#version 330 compatibility\n" + MixState::getSource() +
                                    "void main() {\n"
-                                   "    osgmr_mixAt(vec3(gl_FragCoord.x / 12.0, 0.0, 0.0));\n"
+                                   "    osgmr_mixAt(vec3(gl_FragCoord.x / 6.0, 0.0, 0.0));\n"
                                    "    gl_FragColor = osgmr_mixed(\n"
                                    "        osgmr_weight(0) * vec4(0.75, 0.5, 0.0, 1.0) +\n"
                                    "        osgmr_weight(1) * vec4(0.5, 0.0, 0.25, 1.0));\n"
@@ -339,7 +345,7 @@ TEST_F(MixGLTest, colorsMixByTheRules)
     const auto* const pixels = reinterpret_cast<const glm::vec4*>(picture->data());
     for (int x = 0; x < Size; ++x)
     {
-        const double distance = (x + 0.5) / 12.0;
+        const double distance = (x + 0.5) / 6.0;
         const glm::dvec4 expected = weights.mix(distance, {{0.75, 0.5, 0.0}, {0.5, 0.0, 0.25}});
         for (int channel = 0; channel < 4; ++channel)
             EXPECT_NEAR(pixels[x][channel], expected[channel], 1e-6) << x << ", " << channel;
