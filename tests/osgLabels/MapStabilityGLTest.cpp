@@ -39,8 +39,9 @@ TEST_F(MapStabilityGLTest, aLabelChangesOnceASecondAtMostWhileTheCameraMovesSlow
 {
     // A quarter of the path's speed: 4 to 9 m/s.
     MapFlight flight(town(), "maptest=share", true);
-    const auto flips = report("slow, with a past", flight.fly(10.0, Seconds, 0.25));
+    const auto flips = report("slow, with a past", flight.fly(3.0, Seconds, 0.25));
     EXPECT_LE(flips.most, 1u);
+    EXPECT_GT(flips.count, 0u);
     EXPECT_GT(flips.shown, 5.0);
 }
 
