@@ -30,7 +30,7 @@ struct MapCamera
 /// What one view remembers of its map labels from frame to frame; in its draw thread.
 ///
 /// A label changes once a second at most, also when it leaves the view and comes back within, and
-/// /// only while the view moves, or, where it rests, when what is seen of the label has changed.
+/// only while the view moves, or, where it rests, when what is seen of the label has changed.
 /// What is held back when the view comes to rest is dropped until it moves again, so that where
 /// view and scene rest nothing changes. A time that does not advance is a cut, and so is a jump of
 /// the view: the picture stands for itself then.

@@ -37,8 +37,8 @@ osgLabels_Line osgLabels_unroll(osgLabels_View view, vec3 p, osgLabels_Band band
     vec3 gradTheta = vec3(-p.y, p.x, 0.0f) / (rho * rho);
     float count = 4.0f;
     if (runsAround)
-        count = osgLabels_count(view, osgLabels_TwoPi * max(radius - steep * line.em, inner),
-                                line.em, width);
+        count = max(count, osgLabels_count(view, osgLabels_TwoPi * max(radius - steep * line.em, inner),
+                                           line.em, width));
     float turned = runsAround ? osgLabels_fromMiddle(0.0f, theta, count, osgLabels_TwoPi / count)
                               : osgLabels_fromMiddle(0.0f, theta, 1.0f, osgLabels_HalfPi);
     float turn = theta - turned;

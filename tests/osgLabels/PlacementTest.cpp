@@ -268,3 +268,48 @@ TEST(PlacementTest, shortTextsAreRepeatedAlongWhatIsLongAndStandOnceOnWhatIsNot)
                 }
             }
 }
+
+TEST(PlacementTest, textStandsFourTimesAroundUprightCylindersAtLeast)
+{
+    const ShapeMesh tank = shapemesh::frustum(0.5, 0.5, 0.6, 32, 1, shapemesh::FanCapped);
+    for (const float width : {0.6f, 1.8f, 8.0f, 25.0f})
+    {
+        int texts = 0;
+        LabelPlace before;
+        constexpr int Steps = 3600;
+        for (int i = 0; i <= Steps; ++i)
+        {
+            const double angle = 2.0 * M_PI * (i + 0.5) / Steps;
+            const glm::dvec3 out(std::cos(angle), std::sin(angle), 0.0);
+            const LabelPlace at =
+                placeAt(tank, {0.5 * out, out, true},
+                        Camera(8.0 * out + glm::dvec3(0, 0, 1), {0, 0, 1}), width);
+            const bool isNext = !before.inside || at.place.x < before.place.x - 0.5f * width;
+            texts += i > 0 && at.inside && isNext;
+            before = at;
+        }
+        // Long ones run up the tank, each in the middle of its quarter.
+        EXPECT_GE(texts, 4) << width << " em";
+        EXPECT_TRUE(width < 4.0f || texts == 4) << width << " em";
+    }
+}
+
+TEST(PlacementTest, linesOfAdjoiningWallsStandAtOneHeight)
+{
+    const glm::dvec3 half(0.6, 0.5, 0.3);
+    const ShapeMesh block = shapemesh::box(half, false);
+    for (const double z : {-0.05, 0.0, 0.08})
+        for (const float width : {1.8f, 2.4f})
+        {
+            std::vector<LabelPlace> places;
+            for (const glm::dvec3 out : {glm::dvec3(1, 0, 0), {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}})
+                places.push_back(placeAt(block, {out * half + glm::dvec3(0, 0, z), out, false},
+                                         Camera(8.0 * out + glm::dvec3(0, 0, 1), {0, 0, 1}),
+                                         width));
+            for (const LabelPlace& at : places)
+            {
+                EXPECT_TRUE(at.inside) << z << ", " << width << " em";
+                EXPECT_NEAR(at.place.y, places.front().place.y, 1e-4f) << z << ", " << width;
+            }
+        }
+}

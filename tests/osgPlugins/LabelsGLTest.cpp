@@ -126,7 +126,7 @@ TEST_F(LabelsPlugin, settingsAreSaidInBracketsOrOptions)
     const Picture red = view(_model + ".(size=0.3,ink=#ff0000).labels");
     const Picture large = view(_model + ".(size=0.6,ink=#ff0000).labels");
     ASSERT_TRUE(red && large);
-    EXPECT_GT(shareOf(*red, 0), 0.002);
+    EXPECT_GT(shareOf(*red, 0), 0.001) << "a few letters of a few pixels each";
     EXPECT_GT(shareOf(*large, 0), 2.0 * shareOf(*red, 0));
     const support::CompareImage exact{0.0, 0.0, 0.0};
     const std::vector<std::string> options = {"--SingleThreaded", "-O",
