@@ -16,7 +16,7 @@ public:
     /// Bytes; each piece has a cost of its own.
     static constexpr std::uint64_t LeastPiece = 16 << 10;
     /// So that one which meets pages that were never touched, or a busy driver, is soon over.
-    static constexpr std::uint64_t LargestPiece = 1 << 20;
+    static constexpr std::uint64_t LargestPiece = 256 << 10;
 
     /// Begins a frame that may take that many milliseconds.
     void begin(double milliseconds);
