@@ -9,7 +9,8 @@ namespace osgPagedTexture
 {
 
 /// How many bytes may go to the GPU now, so that a frame's uploads stay within their time. What the
-/// last pieces took decides how large the next ones are; the first one is the smallest.
+/// last pieces took decides how large the next ones are; the first one is the smallest. Pieces that
+/// turn out smaller than LeastPiece say what a call takes, not what its bytes do.
 class OSGPAGEDTEXTURE_EXPORT UploadPace
 {
 public:
@@ -38,6 +39,7 @@ public:
 
 private:
     double _rate = 0.0;
+    double _call = 0.0; ///< Milliseconds of a piece of hardly any bytes.
     double _budget = 0.0;
     double _spent = 0.0;
     bool _isFirst = true;
