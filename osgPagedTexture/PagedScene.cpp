@@ -271,6 +271,7 @@ std::vector<osgMultiRender::Plan> PagedScene::getPlans() const
                    {"files.decoded", double(statistics.loader.filesDecoded)},
                    {"files.bytesRead", double(statistics.loader.bytesRead)},
                    {"cache.hits", double(statistics.loader.cache.hits)},
+                   {"cache.bytesRead", double(statistics.loader.cache.bytesRead)},
                    {"upload.bytes", double(statistics.upload.uploaded)},
                    {"upload.bytes.p99", bytes.getPercentile(99.0)},
                    {"upload.madeAside", double(statistics.upload.madeAside)},

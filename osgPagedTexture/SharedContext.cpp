@@ -29,6 +29,8 @@ struct SharedContext::Egl
     std::uint32_t (*releaseThread)() = nullptr;
 
     Handle display = nullptr;
+    Handle config = nullptr;
+    Handle current = nullptr; ///< With which textures are shared.
     Handle context = nullptr;
     std::uint32_t api = 0;
 
@@ -57,21 +59,24 @@ struct SharedContext::Egl
 #endif
     }
 
-    bool share()
+    bool findCurrent()
     {
-        const Handle current = getCurrentContext();
+        current = getCurrentContext();
         display = getCurrentDisplay();
         api = queryApi();
         if (!current || !display)
             return false;
         Number id = 0, count = 0;
         queryContext(display, current, ConfigId, &id);
-        Handle config = nullptr;
         const Number wish[] = {ConfigId, id, None};
-        if (id && (!chooseConfig(display, wish, &config, 1, &count) || count != 1))
-            return false;
+        return !id || (chooseConfig(display, wish, &config, 1, &count) && count == 1);
+    }
+
+    bool share()
+    {
         const Number nothing[] = {None};
-        context = createContext(display, config, current, nothing);
+        if (bindApi(api) && !context)
+            context = createContext(display, config, current, nothing);
         return context != nullptr;
     }
 };
@@ -87,13 +92,12 @@ SharedContext::~SharedContext()
 std::unique_ptr<SharedContext> SharedContext::create()
 {
     std::unique_ptr<SharedContext> context(new SharedContext);
-    return context->_egl->load() && context->_egl->share() ? std::move(context) : nullptr;
+    return context->_egl->load() && context->_egl->findCurrent() ? std::move(context) : nullptr;
 }
 
 bool SharedContext::makeCurrent()
 {
-    return _egl->bindApi(_egl->api) &&
-           _egl->makeCurrent(_egl->display, nullptr, nullptr, _egl->context);
+    return _egl->share() && _egl->makeCurrent(_egl->display, nullptr, nullptr, _egl->context);
 }
 
 void SharedContext::release()

@@ -14,11 +14,12 @@ namespace osgPagedTexture
 class SharedContext
 {
 public:
-    /// Shares with the calling thread's context; null where that is none of EGL, or EGL refuses.
+    /// Shares with the calling thread's context; null where that is none of EGL.
     static std::unique_ptr<SharedContext> create();
     ~SharedContext();
 
-    /// In the thread that will use it. Returns whether it can.
+    /// In the thread that will use it, where it comes into being: drivers take milliseconds.
+    /// Returns whether it can.
     bool makeCurrent();
 
     /// In that thread again, before the end of both.

@@ -4,6 +4,7 @@
 #include <osgPagedTexture/ThreadClock.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace osgPagedTexture
 {
@@ -68,6 +69,27 @@ void StorageThread::cancel(Ticket ticket)
     _changed.notify_all();
 }
 
+void StorageThread::drop(std::shared_ptr<const void> memory)
+{
+    std::lock_guard<std::mutex> lock(_mutex);
+    if (!_isUsable)
+        return;
+    _dropped.push_back(std::move(memory));
+    _changed.notify_all();
+}
+
+/// Nobody waits for the lock meanwhile.
+void StorageThread::giveBack(std::unique_lock<std::mutex>& lock)
+{
+    const std::vector<GLuint> unwanted = std::exchange(_unwanted, {});
+    std::vector<std::shared_ptr<const void>> dropped = std::exchange(_dropped, {});
+    lock.unlock();
+    if (!unwanted.empty())
+        glDeleteTextures(GLsizei(unwanted.size()), unwanted.data());
+    dropped.clear();
+    lock.lock();
+}
+
 void StorageThread::work()
 {
     const bool isCurrent = _context->makeCurrent();
@@ -75,11 +97,15 @@ void StorageThread::work()
     _isUsable = isCurrent;
     for (; !_isUsable && !_orders.empty(); _orders.pop_front())
         _results[_orders.front().ticket];
+    if (!_isUsable)
+        _dropped.clear();
     while (_isUsable && !_ends)
     {
-        if (!_unwanted.empty())
-            glDeleteTextures(GLsizei(_unwanted.size()), _unwanted.data());
-        _unwanted.clear();
+        if (!_unwanted.empty() || !_dropped.empty())
+        {
+            giveBack(lock);
+            continue;
+        }
         if (_orders.empty())
         {
             _changed.wait(lock);

@@ -17,9 +17,6 @@ namespace
 
 constexpr GLenum StreamDraw = 0x88E0;
 
-/// Less is made in any frame, and says nothing about the cost of more.
-constexpr std::uint64_t SmallMemory = 256 << 10;
-
 int blockRows(BlockFormat format, int height)
 {
     return isBlocked(format) ? (height + 3) / 4 : height;
@@ -31,10 +28,7 @@ int blockRows(BlockFormat format, int height)
 bool UploadQueue::step(const Share& share)
 {
     if (!_doomed.empty())
-    {
-        deleteOne();
-        return true;
-    }
+        return deleteOne(share);
     if (!_build && _coarser.empty() && _jobs.empty())
         return false;
     if (!_build && !start(share.limits.bytes))
@@ -65,6 +59,7 @@ bool UploadQueue::start(std::uint64_t limit)
     else if (_bytes + size.bytes() - (before ? before->size.bytes() : 0) > limit)
     {
         tell(job.texture, before ? before->size.level : UploadEvent::Gone);
+        drop(build->job);
         return false;
     }
     build->level = size.level;
@@ -85,15 +80,14 @@ bool UploadQueue::makeMemory(const Share& share)
         return (thread = osg::get<ContextTextures>(_contextID)->getStorageThread()) &&
                thread->isUsable();
     };
-    const double cost =
-        texture.size.bytes() < SmallMemory ? 0.0 : _costOfByte * double(texture.size.bytes());
+    const double cost = _costToMake.of(texture.size.bytes());
     if (_build->ticket && findThread())
     {
         const auto made = thread->take(_build->ticket);
         if (!made)
             return false;
         texture.name = made->name;
-        learnCost(made->milliseconds);
+        _costToMake.learn(texture.size.bytes(), made->milliseconds);
         std::lock_guard<std::mutex> lock(_mutex);
         ++_statistics.madeAside;
     }
@@ -108,23 +102,12 @@ bool UploadQueue::makeMemory(const Share& share)
     {
         const double start = threadMilliseconds();
         texture.name = makeStorage(*_gl, texture.size);
-        learnCost(threadMilliseconds() - start);
+        _costToMake.learn(texture.size.bytes(), threadMilliseconds() - start);
     }
     _build->ticket = 0;
     if (!texture.name)
         refuse();
     return true;
-}
-
-/// The slowest counts: memory that has been used before costs little, but there may be none.
-void UploadQueue::learnCost(double milliseconds)
-{
-    const std::uint64_t bytes = _build->texture.size.bytes();
-    if (bytes < SmallMemory)
-        return;
-    const double cost = milliseconds / double(bytes);
-    _costOfByte = _isCostKnown ? std::max(_costOfByte, cost) : cost;
-    _isCostKnown = true;
 }
 
 /// GL has no memory for it.
@@ -149,6 +132,7 @@ void UploadQueue::cancelBuild()
         doom(_build->texture);
     else
         _bytes -= _build->texture.size.bytes();
+    drop(_build->job);
     _build.reset();
 }
 
@@ -222,6 +206,7 @@ void UploadQueue::finish()
     doom(place);
     place = _build->texture;
     tell(_build->job.texture, place.size.level);
+    drop(_build->job);
     _build.reset();
 }
 

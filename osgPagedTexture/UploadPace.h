@@ -9,14 +9,15 @@ namespace osgPagedTexture
 {
 
 /// How many bytes may go to the GPU now, so that a frame's uploads stay within their time. What the
-/// last pieces took decides how large the next ones are; the first one is the smallest.
+/// last pieces took decides how large the next ones are; the first one is the smallest. Pieces that
+/// turn out smaller than LeastPiece say what a call takes, not what its bytes do.
 class OSGPAGEDTEXTURE_EXPORT UploadPace
 {
 public:
     /// Bytes; each piece has a cost of its own.
     static constexpr std::uint64_t LeastPiece = 16 << 10;
     /// So that one which meets pages that were never touched, or a busy driver, is soon over.
-    static constexpr std::uint64_t LargestPiece = 1 << 20;
+    static constexpr std::uint64_t LargestPiece = 256 << 10;
 
     /// Begins a frame that may take that many milliseconds.
     void begin(double milliseconds);
@@ -38,6 +39,7 @@ public:
 
 private:
     double _rate = 0.0;
+    double _call = 0.0; ///< Milliseconds of a piece of hardly any bytes.
     double _budget = 0.0;
     double _spent = 0.0;
     bool _isFirst = true;

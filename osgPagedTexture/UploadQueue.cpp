@@ -143,12 +143,19 @@ void UploadQueue::takeOrders()
         newest[job.texture] = &job;
     const auto isReplaced = [&](const UploadJob& job) { return newest.count(job.texture) > 0; };
     for (std::deque<UploadJob>* jobs : {&_coarser, &_jobs})
+    {
+        for (UploadJob& job : *jobs)
+            if (isReplaced(job))
+                drop(job);
         jobs->erase(std::remove_if(jobs->begin(), jobs->end(), isReplaced), jobs->end());
+    }
     if (_build && isReplaced(_build->job))
         cancelBuild();
     for (UploadJob& job : ordered)
         if (newest[job.texture] == &job)
             take(std::move(job));
+        else
+            drop(job);
 }
 
 void UploadQueue::take(UploadJob job)
@@ -175,6 +182,15 @@ void UploadQueue::evictNow(unsigned int texture)
     tell(texture, UploadEvent::Gone);
 }
 
+/// The memory of a large chain is given back in milliseconds, too.
+void UploadQueue::drop(UploadJob& job)
+{
+    if (!job.chain || job.chain->bytes() < ByteCost::Small)
+        return;
+    if (StorageThread* thread = osg::get<ContextTextures>(_contextID)->getStorageThread())
+        thread->drop(std::move(job.chain));
+}
+
 /// A frame has time for some of them: the memory of a large one is given back in milliseconds.
 void UploadQueue::doom(const Texture& texture)
 {
@@ -182,11 +198,19 @@ void UploadQueue::doom(const Texture& texture)
         _doomed.push_back(texture);
 }
 
-void UploadQueue::deleteOne()
+/// Returns false where the next frame has more time for it.
+bool UploadQueue::deleteOne(const Share& share)
 {
-    glDeleteTextures(1, &_doomed.front().name);
-    _bytes -= _doomed.front().size.bytes();
+    const Texture& texture = _doomed.front();
+    const std::uint64_t bytes = texture.size.bytes();
+    if (_costToDelete.of(bytes) > share.left && !share.isFirst)
+        return false;
+    const double start = threadMilliseconds();
+    glDeleteTextures(1, &texture.name);
+    _costToDelete.learn(bytes, threadMilliseconds() - start);
+    _bytes -= bytes;
     _doomed.pop_front();
+    return true;
 }
 
 bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
@@ -201,17 +225,15 @@ bool UploadQueue::run(osg::State& state, const UploadLimits& limits)
     if (!_buffer)
         _gl->glGenBuffers(1, &_buffer);
     _gl->glBindBuffer(UnpackScope::Buffer, _buffer);
-    bool goesOn = true, isFirst = true;
+    bool goesOn = true;
     for (int steps = 0; goesOn; ++steps)
     {
         const std::uint64_t had = _uploaded;
-        const bool deletes = !_doomed.empty();
-        const Share share{limits, pace.piece(), limits.milliseconds - pace.getSpent(), isFirst};
+        const Share share{limits, pace.piece(), limits.milliseconds - pace.getSpent(), steps == 0};
         goesOn = (share.left > 0.0 || steps == 0) && share.piece > 0 && step(share);
         const double now = threadMilliseconds();
         pace.took(_uploaded - had, now - start); // No bytes: says nothing about the rate.
         start = now;
-        isFirst = isFirst && deletes;
     }
     publish(uploaded, pace.getSpent() - spent);
     std::lock_guard<std::mutex> lock(_mutex);

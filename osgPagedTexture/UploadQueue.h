@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/ByteCost.h>
 #include <osgPagedTexture/MipChain.h>
 #include <osgPagedTexture/PagerStatistics.h>
 #include <osgPagedTexture/PlainTextures.h>
@@ -60,8 +61,8 @@ struct UploadLimits
 /// A texture that changes is made anew at its other size, since drivers give no memory back for
 /// levels that are not used; it is filled over several frames in rows of blocks, through a pixel
 /// buffer or from the finer one, and takes the place of the one before when it is complete. Memory
-/// that would take too long in a frame is made in a StorageThread. What has an osg::State, and
-/// find(), belong to the draw thread, all else to any.
+/// that would take too long in a frame is made in a StorageThread, and chains that are on the GPU
+/// end there. What has an osg::State, and find(), belong to the draw thread, all else to any.
 class UploadQueue
 {
 public:
@@ -112,7 +113,7 @@ private:
         const UploadLimits& limits;
         std::uint64_t piece = 0; ///< Bytes.
         double left = 0.0;       ///< Milliseconds.
-        bool isFirst = true;     ///< Nothing has been made in this frame.
+        bool isFirst = true;     ///< Nothing has been done in this frame.
     };
 
     void reset();
@@ -121,7 +122,6 @@ private:
     bool step(const Share& share);
     bool start(std::uint64_t limit);
     bool makeMemory(const Share& share);
-    void learnCost(double milliseconds);
     void refuse();
     void cancelBuild();
     bool fill(std::uint64_t piece);
@@ -130,7 +130,8 @@ private:
     void finish();
     void evictNow(unsigned int texture);
     void doom(const Texture& texture);
-    void deleteOne();
+    bool deleteOne(const Share& share);
+    void drop(UploadJob& job);
     void tell(unsigned int texture, int level, bool refused = false);
     void publish(std::uint64_t uploadedBefore, double milliseconds);
 
@@ -154,8 +155,7 @@ private:
     std::deque<UploadJob> _jobs;
     std::deque<Texture> _doomed; ///< Nobody names them any more.
     std::unique_ptr<Build> _build;
-    double _costOfByte = 1.0 / (1 << 20); ///< Milliseconds to make its memory.
-    bool _isCostKnown = false;
+    ByteCost _costToMake{1.0}, _costToDelete{0.05};
     std::uint64_t _bytes = 0;
     std::uint64_t _uploaded = 0;
 };

@@ -45,6 +45,25 @@ TEST(UploadPaceTest, mostOfTheTimeIsUsed)
     EXPECT_GT(pace.getSpent(), 1.5);
 }
 
+TEST(UploadPaceTest, aFrameTakesAsManySmallTexturesAsItHasTimeFor)
+{
+    for (const double call : {0.005, 0.02, 0.2})
+        for (const bool knowsLargeOnes : {false, true})
+        {
+            UploadPace pace;
+            if (knowsLargeOnes)
+                worstFrame(pace, 1e6, 0.3, 20);
+            for (int frame = 0; frame < 5; ++frame)
+            {
+                pace.begin(0.3);
+                while (pace.piece() > 0)
+                    pace.took(700, call);
+                EXPECT_LE(pace.getSpent(), 0.3);
+                EXPECT_GE(pace.getSpent(), std::max(call, knowsLargeOnes ? 0.2 : 0.12));
+            }
+        }
+}
+
 TEST(UploadPaceTest, aDriverThatGetsSlowIsFollowedAtOnce)
 {
     UploadPace pace;
