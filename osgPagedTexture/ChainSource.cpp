@@ -103,7 +103,7 @@ void ChainSource::checkUnchanged(const Job& job) const
     const bool stampTells =
         std::max(job.stamp.modified, job.stamp.changed) + settled < job.startedAt;
     const bool same = stampOf(job.request.file) == job.stamp &&
-                      (stampTells || hashText(readFileBytes(job.request.file)) == job.content);
+                      (stampTells || hashFile(job.request.file).content == job.content);
     if (!same)
     {
         throw ImageError(Kind::Unreadable, job.request.file,

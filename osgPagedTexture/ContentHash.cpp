@@ -23,6 +23,29 @@ ContentHash hashBytes(const void* bytes, std::size_t count)
     return {hash.high64, hash.low64};
 }
 
+struct HashStream::State
+{
+    XXH3_state_t xxh;
+};
+
+HashStream::HashStream() : _state(std::make_unique<State>())
+{
+    XXH3_128bits_reset(&_state->xxh);
+}
+
+HashStream::~HashStream() = default;
+
+void HashStream::add(const void* bytes, std::size_t count)
+{
+    XXH3_128bits_update(&_state->xxh, bytes, count);
+}
+
+ContentHash HashStream::get() const
+{
+    const XXH128_hash_t hash = XXH3_128bits_digest(&_state->xxh);
+    return {hash.high64, hash.low64};
+}
+
 std::uint64_t checksum(const void* bytes, std::size_t count, std::uint64_t seed)
 {
     return XXH3_64bits_withSeed(bytes, count, seed);

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace osgPagedTexture
@@ -35,6 +36,20 @@ inline ContentHash hashText(const std::string& text)
 {
     return hashBytes(text.data(), text.size());
 }
+
+/// The same hash of bytes that come in pieces.
+class HashStream
+{
+public:
+    OSGPAGEDTEXTURE_EXPORT HashStream();
+    OSGPAGEDTEXTURE_EXPORT ~HashStream();
+    OSGPAGEDTEXTURE_EXPORT void add(const void* bytes, std::size_t count);
+    OSGPAGEDTEXTURE_EXPORT ContentHash get() const;
+
+private:
+    struct State;
+    const std::unique_ptr<State> _state;
+};
 
 /// 64 bits of the same, with a seed.
 OSGPAGEDTEXTURE_EXPORT std::uint64_t checksum(const void* bytes, std::size_t count,

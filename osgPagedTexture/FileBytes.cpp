@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <vector>
 
 namespace osgPagedTexture
 {
@@ -52,13 +53,26 @@ struct OpenFile
     std::string read(std::size_t count)
     {
         std::string text(count, '\0');
-        text.resize(std::fread(text.data(), 1, count, _file.get()));
+        text.resize(readInto(text.data(), count));
+        return text;
+    }
+    std::size_t readInto(char* target, std::size_t count)
+    {
+        const std::size_t got = std::fread(target, 1, count, _file.get());
         if (std::ferror(_file.get()))
         {
             throw unreadable(_path, std::string("reading failed: ") + std::strerror(errno) +
                                         "; check the disk");
         }
-        return text;
+        return got;
+    }
+    /// Throws where fewer bytes came than there were at first.
+    void checkWhole(std::uint64_t got) const
+    {
+        if (got < bytes)
+        {
+            throw unreadable(_path, "became shorter while it was read; wait until it is written");
+        }
     }
     std::uint64_t bytes = 0;
 
@@ -90,11 +104,24 @@ std::string readFileBytes(const std::string& path)
                          "is larger than 2 GiB; store the picture smaller");
     }
     std::string text = file.read(file.bytes);
-    if (text.size() < file.bytes)
-    {
-        throw unreadable(path, "became shorter while it was read; wait until it is written");
-    }
+    file.checkWhole(text.size());
     return text;
+}
+
+FileHash hashFile(const std::string& path)
+{
+    OpenFile file(path);
+    HashStream stream;
+    std::vector<char> piece(1 << 20);
+    FileHash hash;
+    while (const std::size_t got = file.readInto(piece.data(), piece.size()))
+    {
+        stream.add(piece.data(), got);
+        hash.fileBytes += got;
+    }
+    file.checkWhole(hash.fileBytes);
+    hash.content = stream.get();
+    return hash;
 }
 
 } // namespace osgPagedTexture

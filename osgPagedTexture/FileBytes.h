@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/ContentHash.h>
+
 #include <cstdint>
 #include <string>
 
@@ -18,5 +20,14 @@ FileHead readFileHead(const std::string& path, std::size_t count);
 
 /// Reads a whole regular file. Throws ImageError, also where it shrinks meanwhile.
 std::string readFileBytes(const std::string& path);
+
+struct FileHash
+{
+    ContentHash content; ///< That of hashBytes() for the whole file.
+    std::uint64_t fileBytes = 0;
+};
+
+/// Hashes a regular file of any size a megabyte at a time. Throws as readFileBytes().
+FileHash hashFile(const std::string& path);
 
 } // namespace osgPagedTexture

@@ -15,7 +15,7 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool
     constexpr std::size_t headBytes = 64 << 10;
     const FileHead head = readFileHead(path, headBytes);
     ImageInfo info;
-    if (readPnmInfo(head.bytes, head.fileBytes, limits, info))
+    if (readPnmInfo(head.bytes, head.fileBytes, path, limits, info))
     {
         return info;
     }
@@ -33,9 +33,15 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits, bool
 
 DecodedImage readImageFile(const std::string& path, const ReadSettings& settings)
 {
-    const FileHead head = readFileHead(path, 2);
-    return isJpeg(head.bytes) ? readJpegBytes(readFileBytes(path), path, settings)
-                              : oiioFunctions().readFile(path, head.fileBytes, settings);
+    constexpr std::size_t headBytes = 1024;
+    const FileHead head = readFileHead(path, headBytes);
+    if (isJpeg(head.bytes))
+    {
+        return readJpegBytes(readFileBytes(path), path, settings);
+    }
+    ImageInfo info;
+    readPnmInfo(head.bytes, head.fileBytes, path, settings.limits, info); // refuses, see there
+    return oiioFunctions().readFile(path, head.fileBytes, settings);
 }
 
 } // namespace osgPagedTexture

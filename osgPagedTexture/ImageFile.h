@@ -52,6 +52,11 @@ struct ImageLimits
 {
     std::uint64_t maxPixels = std::uint64_t(1) << 28; ///< 16384 x 16384.
     std::uint64_t maxBytes = std::uint64_t(1) << 30;  ///< Of decoded pixels at full size.
+
+    /// Throws ImageError, Refused, where a picture of this size and as many bytes a pixel is
+    /// beyond them; `name` is for the message.
+    OSGPAGEDTEXTURE_EXPORT void check(const std::string& name, std::uint64_t width,
+                                      std::uint64_t height, unsigned int channels) const;
 };
 
 struct ReadSettings

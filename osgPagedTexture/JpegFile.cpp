@@ -41,11 +41,7 @@ void checkJpegSize(const JpegDecoder& decoder, std::uint64_t fileBytes, const st
                              std::to_string(fileBytes) +
                              " bytes can hold; copy it from its source again");
     }
-    if (pixels > limits.maxPixels || pixels * 3 > limits.maxBytes)
-    {
-        throw ImageError(Kind::Refused, name,
-                         "has " + size + " pixels, more than the limit; store it smaller");
-    }
+    limits.check(name, jpeg.image_width, jpeg.image_height, 3);
 }
 
 void readJpegHeader(JpegDecoder& decoder, const std::string& name)

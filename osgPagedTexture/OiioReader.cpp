@@ -53,11 +53,7 @@ void OiioReader::checkSize(std::uint64_t fileBytes, const ImageLimits& limits) c
     constexpr std::uint64_t freeBytes = 64 << 20;
     const std::uint64_t pixels = std::uint64_t(header.width) * header.height;
     const std::string size = std::to_string(header.width) + "x" + std::to_string(header.height);
-    if (pixels > limits.maxPixels || pixels * channels() > limits.maxBytes)
-    {
-        throw ImageError(Kind::Refused, _path,
-                         "has " + size + " pixels, more than the limit; store it smaller");
-    }
+    limits.check(_path, header.width, header.height, channels());
     const std::uint64_t decoded = pixels * header.nchannels * header.format.size();
     if (decoded > freeBytes && decoded / bytesPerByte > fileBytes)
     {

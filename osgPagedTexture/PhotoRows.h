@@ -54,10 +54,10 @@ std::unique_ptr<PhotoRows> openJpegRows(const std::string& path, std::uint64_t f
 std::unique_ptr<PhotoRows> openPnmRows(const std::string& path, std::uint64_t fileBytes,
                                        const PhotoRowsSettings& settings);
 
-/// Fills `info` from the start of a binary PPM or PGM file of 8 bits; false where it is none, is
-/// cut off, or exceeds the limits.
-bool readPnmInfo(const std::string& head, std::uint64_t fileBytes, const ImageLimits& limits,
-                 ImageInfo& info);
+/// Fills `info` from the start of a binary PPM or PGM file of 8 bits; false where it is none or is
+/// cut off. Throws ImageError where it exceeds the limits.
+bool readPnmInfo(const std::string& head, std::uint64_t fileBytes, const std::string& path,
+                 const ImageLimits& limits, ImageInfo& info);
 
 /// Of `channels` (1 to 4) to those of the settings.
 OSGPAGEDTEXTURE_EXPORT void convertRow(const std::uint8_t* source, int channels,

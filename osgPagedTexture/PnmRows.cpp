@@ -115,15 +115,16 @@ private:
 
 } // namespace
 
-bool readPnmInfo(const std::string& head, std::uint64_t fileBytes, const ImageLimits& limits,
-                 ImageInfo& info)
+bool readPnmInfo(const std::string& head, std::uint64_t fileBytes, const std::string& path,
+                 const ImageLimits& limits, ImageInfo& info)
 {
     const PnmHead pnm = readHead(head, fileBytes);
-    const std::uint64_t pixels = std::uint64_t(pnm.width) * std::uint64_t(pnm.height);
-    if (pnm.pixels == 0 || pixels > limits.maxPixels || pixels * pnm.channels > limits.maxBytes)
+    if (pnm.pixels == 0)
     {
         return false;
     }
+    // Not left to OpenImageIO, which reads the whole file when it opens it.
+    limits.check(path, pnm.width, pnm.height, pnm.channels);
     info.width = static_cast<int>(pnm.width);
     info.height = static_cast<int>(pnm.height);
     info.channels = pnm.channels;

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace osgPagedTexture;
@@ -152,6 +153,23 @@ TEST_F(ImageFileErrorTest, HeadersOfOtherFormatsThatPromiseTooMuchAreRefused)
     const std::string bmp = readText(folder.file("a.bmp"));
     const std::string larger = patched(patched(bmp, 18, 0x003e0000, 4), 22, 0x003e0000, 4);
     EXPECT_EQ(failureOf(folder.write("b.bmp", larger)).kind, Kind::Refused) << 15872;
+}
+
+/// OpenImageIO reads a whole PPM when it opens it.
+TEST_F(ImageFileErrorTest, aPpmBeyondTheLimitIsRefusedBeforeMemoryIsTaken)
+{
+    const std::string path = folder.write("a.ppm", "P6 40000 40000 255\n");
+    std::filesystem::resize_file(path, 19 + std::uintmax_t(40000) * 40000 * 3); // sparse
+    const auto peak = []()
+    {
+        rusage use{};
+        getrusage(RUSAGE_SELF, &use);
+        return use.ru_maxrss; // KiB
+    };
+    const long before = peak();
+    EXPECT_EQ(failureOf(path).kind, Kind::Refused);
+    EXPECT_THROW(readImageInfo(path), ImageError);
+    EXPECT_LT(peak() - before, 64 << 10) << "of 4.5 GiB";
 }
 
 TEST_F(ImageFileErrorTest, ThePixelLimitIsKept)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "PictureFiles.h"
 
+#include <osgPagedTexture/ContentHash.h>
 #include <osgPagedTexture/PhotoFolder.h>
 #include <osgPagedTexture/TileStore.h>
 
@@ -30,6 +31,22 @@ TEST(PhotoFolderTest, picturesOfAllFoldersAreFoundSortedAndNothingElse)
     EXPECT_EQ(findPhotos(folder.getPath().string()),
               (Paths{"a/deep/wall.jpg", "b/wall.JPG", "wall.tiff"}));
     EXPECT_THROW(findPhotos(folder.file("none")), TileStoreError);
+}
+
+TEST(PhotoFolderTest, aPhotographOfMoreThanTwoGigabytesIsDescribed)
+{
+    const support::TemporaryFolder folder;
+    const std::string path = folder.write("wall.pgm", "P5 46400 46400 255\n");
+    const std::uintmax_t bytes = 19 + std::uintmax_t(46400) * 46400;
+    fs::resize_file(path, bytes); // sparse
+    const AtlasPhoto photo = describePhoto(folder.getPath().string(), "wall.pgm");
+    EXPECT_EQ(photo.width, 46400);
+    EXPECT_EQ(photo.bytes, bytes);
+    // What is hashed in pieces has the hash of the whole.
+    const std::string some(3000000, 'x');
+    folder.write("b.pgm", "P5 1000 3000 255\n" + some);
+    EXPECT_EQ(describePhoto(folder.getPath().string(), "b.pgm").hash,
+              hashText("P5 1000 3000 255\n" + some).text());
 }
 
 TEST(PhotoFolderTest, photographsAreDescribedInTheirOrderAndBrokenOnesNamed)
