@@ -196,7 +196,8 @@ void Pager::takeEvents()
         for (const UploadEvent& event : each.second.queue->takeEvents())
         {
             stir(event.texture);
-            each.second.queued[event.texture] = None;
+            if (!event.isPreview)
+                each.second.queued[event.texture] = None;
             if (event.isRefused)
             {
                 _entries[event.texture].finest =

@@ -117,6 +117,9 @@ void Pager::pushToAll(unsigned int texture, const std::shared_ptr<const MipChain
     if (target < 0)
         return;
     const int level = std::max(target, chain->firstLevel);
+    int preview = level;
+    while (levelSide(std::max(chain->width, chain->height), preview) > int(_settings.previewSide))
+        ++preview;
     for (auto& each : _contexts)
     {
         Context& context = each.second;
@@ -126,7 +129,7 @@ void Pager::pushToAll(unsigned int texture, const std::shared_ptr<const MipChain
         if (!isUseful || (there < target && there != UploadEvent::Gone && level != target))
             continue;
         context.queued[texture] = level;
-        context.queue->push({texture, level, chain});
+        context.queue->push({texture, level, chain, preview});
     }
 }
 

@@ -29,7 +29,7 @@ bool UploadQueue::step(const Share& share)
 {
     if (!_doomed.empty())
         return deleteOne(share);
-    if (!_build && _coarser.empty() && _jobs.empty())
+    if (!_build && _coarser.empty() && _jobs.empty()) // there are no previews without jobs
         return false;
     if (!_build && !start(share.limits.bytes))
         return true;
@@ -44,8 +44,11 @@ bool UploadQueue::step(const Share& share)
 /// count, since that goes when the new one is complete.
 bool UploadQueue::start(std::uint64_t limit)
 {
-    std::deque<UploadJob>& jobs = _coarser.empty() ? _jobs : _coarser;
+    std::deque<UploadJob>& jobs = !_coarser.empty()    ? _coarser
+                                  : !_previews.empty() ? _previews
+                                                       : _jobs;
     auto build = std::make_unique<Build>();
+    build->isPreview = &jobs == &_previews;
     build->job = std::move(jobs.front());
     jobs.pop_front();
     const UploadJob& job = build->job;
@@ -58,7 +61,8 @@ bool UploadQueue::start(std::uint64_t limit)
         size.level = job.level;
     else if (_bytes + size.bytes() - (before ? before->size.bytes() : 0) > limit)
     {
-        tell(job.texture, before ? before->size.level : UploadEvent::Gone);
+        if (!build->isPreview) // its whole says so
+            tell({job.texture, before ? before->size.level : UploadEvent::Gone});
         drop(build->job);
         return false;
     }
@@ -115,9 +119,12 @@ void UploadQueue::refuse()
 {
     const UploadJob job = _build->job;
     const int level = _build->texture.size.level;
+    const bool isPreview = _build->isPreview;
     cancelBuild();
+    if (isPreview)
+        return; // Its whole is refused, too, or is there soon.
     if (job.chain)
-        tell(job.texture, level, true);
+        tell({job.texture, level, true});
     else
         evictNow(job.texture);
 }
@@ -205,7 +212,7 @@ void UploadQueue::finish()
     Texture& place = _textures[_build->job.texture];
     doom(place);
     place = _build->texture;
-    tell(_build->job.texture, place.size.level);
+    tell({_build->job.texture, place.size.level, false, _build->isPreview});
     drop(_build->job);
     _build.reset();
 }

@@ -78,26 +78,27 @@ UploadStatistics UploadQueue::getStatistics() const
     return statistics;
 }
 
-void UploadQueue::tell(unsigned int texture, int level, bool refused)
+void UploadQueue::tell(const UploadEvent& event)
 {
     std::lock_guard<std::mutex> lock(_mutex);
-    _events.push_back({texture, level, refused});
+    _events.push_back(event);
 }
 
 /// The context is a new one, or its names are void.
 void UploadQueue::reset()
 {
     for (const auto& each : _textures)
-        tell(each.first, UploadEvent::Gone);
+        tell({each.first});
     if (_build)
-        tell(_build->job.texture, UploadEvent::Gone);
+        tell({_build->job.texture});
     for (const std::deque<UploadJob>* jobs : {&_coarser, &_jobs})
         for (const UploadJob& job : *jobs)
-            tell(job.texture, UploadEvent::Gone);
+            tell({job.texture});
     _textures.clear();
     _plain.forget();
     _buffer = 0;
     _coarser.clear();
+    _previews.clear();
     _jobs.clear();
     _doomed.clear();
     _build.reset();
@@ -142,7 +143,7 @@ void UploadQueue::takeOrders()
     for (const UploadJob& job : ordered)
         newest[job.texture] = &job;
     const auto isReplaced = [&](const UploadJob& job) { return newest.count(job.texture) > 0; };
-    for (std::deque<UploadJob>* jobs : {&_coarser, &_jobs})
+    for (std::deque<UploadJob>* jobs : {&_coarser, &_previews, &_jobs})
     {
         for (UploadJob& job : *jobs)
             if (isReplaced(job))
@@ -164,11 +165,15 @@ void UploadQueue::take(UploadJob job)
     if (job.level == UploadEvent::Gone)
         evictNow(job.texture);
     else if (job.chain)
+    {
+        if (!there && job.preview > std::max(job.level, job.chain->firstLevel))
+            _previews.push_back({job.texture, job.preview, job.chain});
         _jobs.push_back(std::move(job));
+    }
     else if (there && there->size.level < job.level && _copyImage)
         _coarser.push_back(job);
     else
-        tell(job.texture, there ? there->size.level : UploadEvent::Gone);
+        tell({job.texture, there ? there->size.level : UploadEvent::Gone});
 }
 
 void UploadQueue::evictNow(unsigned int texture)
@@ -179,7 +184,7 @@ void UploadQueue::evictNow(unsigned int texture)
         doom(found->second);
         _textures.erase(found);
     }
-    tell(texture, UploadEvent::Gone);
+    tell({texture});
 }
 
 /// The memory of a large chain is given back in milliseconds, too.
@@ -247,7 +252,8 @@ void UploadQueue::publish(std::uint64_t uploadedBefore, double milliseconds)
     _statistics.uploaded = _uploaded;
     _statistics.lastUploaded = _uploaded - uploadedBefore;
     _statistics.lastMilliseconds = milliseconds;
-    _statistics.waiting = _coarser.size() + _jobs.size() + _doomed.size() + (_build ? 1 : 0);
+    _statistics.waiting =
+        _coarser.size() + _previews.size() + _jobs.size() + _doomed.size() + (_build ? 1 : 0);
     _statistics.waitingBytes = _build && _build->job.chain ? _build->job.chain->bytes() : 0;
     for (const UploadJob& job : _jobs)
         _statistics.waitingBytes += job.chain->bytes();

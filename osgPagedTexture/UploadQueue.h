@@ -37,6 +37,9 @@ struct UploadJob
     int level = 0; ///< Finest level.
     /// Holds them; null: what is there loses its finer levels.
     std::shared_ptr<const MipChain> chain;
+    /// Where nothing of the texture is there this level comes first, before whatever takes longer;
+    /// none where it is no coarser than `level`.
+    int preview = 0;
 };
 
 /// What has become of one.
@@ -47,6 +50,7 @@ struct UploadEvent
     unsigned int texture = 0;
     int level = Gone;       ///< The finest level now.
     bool isRefused = false; ///< GL had no memory; `level` is the one that was asked for.
+    bool isPreview = false; ///< The level that was asked for is still on its way.
 };
 
 /// What one run may take.
@@ -102,6 +106,7 @@ private:
     {
         UploadJob job;
         Texture texture;
+        bool isPreview = false;
         std::uint64_t ticket = 0; ///< Not 0: a StorageThread makes its memory.
         int level = 0;            ///< That goes on.
         int row = 0;              ///< Of blocks.
@@ -132,7 +137,7 @@ private:
     void doom(const Texture& texture);
     bool deleteOne(const Share& share);
     void drop(UploadJob& job);
-    void tell(unsigned int texture, int level, bool refused = false);
+    void tell(const UploadEvent& event);
     void publish(std::uint64_t uploadedBefore, double milliseconds);
 
     const unsigned int _contextID;
@@ -151,7 +156,8 @@ private:
     std::unordered_map<unsigned int, Texture> _textures;
     PlainTextures _plain;
     GLuint _buffer = 0;
-    std::deque<UploadJob> _coarser; ///< These give memory back, so they are the first.
+    std::deque<UploadJob> _coarser;  ///< These give memory back, so they are the first.
+    std::deque<UploadJob> _previews; ///< Of textures that are still in `_jobs`, too.
     std::deque<UploadJob> _jobs;
     std::deque<Texture> _doomed; ///< Nobody names them any more.
     std::unique_ptr<Build> _build;
