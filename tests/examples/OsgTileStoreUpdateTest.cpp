@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "TileStoreRun.h"
-
-#include <support/TemporaryFolder.h>
+#include "PhotographStore.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,53 +21,9 @@ namespace
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string bytesOf(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A folder of photographs, and a store of them.
-class Photographs
-{
-public:
-    Photographs()
-    {
-        fs::create_directories(_folder.file("photos/north"));
-        for (int i = 0; i < 12; ++i)
-        {
-            write(std::to_string(i), i);
-        }
-        write("north/1", 77);
-    }
-    std::string photos() const { return _folder.file("photos"); }
-    std::string photo(const std::string& name) const { return photos() + "/" + name + ".ppm"; }
-    std::string store() const { return _folder.file("photos.tiles"); }
-    void write(const std::string& name, int seed) const
-    {
-        std::ofstream file(photo(name), std::ios::binary);
-        file << "P6\n120 90\n255\n";
-        for (int i = 0; i < 120 * 90 * 3; ++i)
-        {
-            file.put(char((i * (seed + 3) + (i >> 8) * seed) % 251));
-        }
-    }
-    support::ProcessResult build(const std::string& store,
-                                 const std::vector<std::string>& more = {}) const
-    {
-        std::vector<std::string> words{"build",       photos(), "--store",  store, "--json",
-                                       "--tile-side", "40",     "--border", "4"};
-        words.insert(words.end(), more.begin(), more.end());
-        return run(words);
-    }
-
-private:
-    support::TemporaryFolder _folder;
-};
-
 TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     auto result = run({"update", sample.store(), "--json"});
     ASSERT_EQ(result.exitCode, 0) << result.errors;
@@ -93,7 +47,7 @@ TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
 
 TEST(OsgTileStoreUpdate, partsOfTheLargePictureAreWrittenWhereTheyHaveChanged)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     const std::string folder = fs::path(sample.store()).parent_path().string();
     const std::string picture = folder + "/atlas.ppm";
     ASSERT_EQ(sample.build(sample.store(), {"--atlas", picture, "--atlas-side", "150"}).exitCode,
@@ -132,7 +86,7 @@ TEST(OsgTileStoreUpdate, partsOfTheLargePictureAreWrittenWhereTheyHaveChanged)
 
 TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     std::ofstream(sample.photo("3")) << "nothing";
     const auto result = run({"update", sample.store()});
@@ -144,7 +98,7 @@ TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)
 
 TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     const std::string whole = bytesOf(sample.store());
     fs::remove(sample.store());
@@ -179,7 +133,7 @@ TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
 
 TEST(OsgTileStoreUpdate, aWatchUpdatesWhatIsSavedAndEndsWhenAsked)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     const pid_t watch = fork();
     if (watch == 0)
