@@ -121,7 +121,10 @@ private:
         if (unit.isGenerated)
             return "its coordinates are generated";
         GeometryPhoto photo;
-        photo.pieces = _places.find(photoFileOf(*unit.texture, _model.images.get()));
+        const std::string file = photoFileOf(*unit.texture, _model.images.get());
+        if (file.empty())
+            return "it is inside of the model and no file";
+        photo.pieces = _places.find(file);
         if (!photo.pieces)
             return "it is not in the layout";
         photo.wrapS = wrapOf(*unit.texture, osg::Texture::WRAP_S);

@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/ArrayPoint.h>
 #include <osgPagedTexture/FileImages.h>
+#include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/TextureState.h>
 
 #include <osg/NodeVisitor>
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -227,6 +229,27 @@ PhotoWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter side)
     }
 }
 
+namespace
+{
+
+/// Whether a picture that a model has inside may be the file of its name.
+bool hasSize(const std::string& file, const osg::Image& image)
+{
+    try
+    {
+        ImageLimits any;
+        any.maxPixels = any.maxBytes = std::numeric_limits<std::uint64_t>::max();
+        const ImageInfo info = readImageInfo(file, any, false);
+        return info.width == image.s() && info.height == image.t();
+    }
+    catch (const ImageError&)
+    {
+        return false;
+    }
+}
+
+} // namespace
+
 std::string photoFileOf(const osg::Texture& texture, const FileImages* images)
 {
     const osg::Image* image = texture.getImage(0);
@@ -234,7 +257,7 @@ std::string photoFileOf(const osg::Texture& texture, const FileImages* images)
         return {};
     const FileImages::Found* found = images ? images->find(*image) : nullptr;
     const std::string file = found ? found->file : osgDB::findDataFile(image->getFileName());
-    if (file.empty())
+    if (file.empty() || (!found && !hasSize(file, *image)))
         return {};
     std::error_code failure;
     const auto path = std::filesystem::weakly_canonical(file, failure);

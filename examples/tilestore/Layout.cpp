@@ -61,8 +61,6 @@ std::vector<AtlasPhoto> partsOf(const ModelPhotos& model, const std::string& lay
     {
         progress.show(i, model.photos.size());
         const Photo& photo = model.photos[i];
-        if (photo.file.empty())
-            continue;
         AtlasPhoto part = describePhoto(folder, relativeTo(layout, photo.file));
         if (!renderer)
         {
@@ -86,6 +84,7 @@ int run(const Arguments& arguments)
     AtlasSettings settings = AtlasSettings::forTiles(side, border);
     settings.padding = int(arguments.number("--padding", settings.padding, 0, 65536));
     const ModelPhotos model = readModel(files[0]);
+    requireFiles(model, files[0]);
     const AtlasLayout layout = packAtlas(partsOf(model, files[1], arguments.has("--tight"),
                                                  int(arguments.number("--margin", 16, 0, 4096))),
                                          settings);
