@@ -23,6 +23,28 @@ ContentHash hashBytes(const void* bytes, std::size_t count)
     return {hash.high64, hash.low64};
 }
 
+struct ContentHasher::State : XXH3_state_t
+{
+};
+
+ContentHasher::ContentHasher() : _state(std::make_unique<State>())
+{
+    XXH3_128bits_reset(_state.get());
+}
+
+ContentHasher::~ContentHasher() = default;
+
+void ContentHasher::add(const void* bytes, std::size_t count)
+{
+    XXH3_128bits_update(_state.get(), bytes, count);
+}
+
+ContentHash ContentHasher::get() const
+{
+    const XXH128_hash_t hash = XXH3_128bits_digest(_state.get());
+    return {hash.high64, hash.low64};
+}
+
 std::uint64_t checksum(const void* bytes, std::size_t count, std::uint64_t seed)
 {
     return XXH3_64bits_withSeed(bytes, count, seed);

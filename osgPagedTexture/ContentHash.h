@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 
 namespace osgPagedTexture
@@ -30,6 +31,23 @@ struct ContentHash
 };
 
 OSGPAGEDTEXTURE_EXPORT ContentHash hashBytes(const void* bytes, std::size_t count);
+
+/// The same of bytes that come in pieces.
+class OSGPAGEDTEXTURE_EXPORT ContentHasher
+{
+public:
+    ContentHasher();
+    ~ContentHasher();
+    ContentHasher(const ContentHasher&) = delete;
+    ContentHasher& operator=(const ContentHasher&) = delete;
+
+    void add(const void* bytes, std::size_t count);
+    ContentHash get() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> _state;
+};
 
 inline ContentHash hashText(const std::string& text)
 {

@@ -20,6 +20,11 @@ ImageError unreadable(const std::string& path, const std::string& cause)
     return ImageError(ImageError::Kind::Unreadable, path, cause);
 }
 
+ImageError becameShorter(const std::string& path)
+{
+    return unreadable(path, "became shorter while it was read; wait until it is written");
+}
+
 struct OpenFile
 {
     explicit OpenFile(const std::string& path) : _path(path)
@@ -92,9 +97,27 @@ std::string readFileBytes(const std::string& path)
     std::string text = file.read(file.bytes);
     if (text.size() < file.bytes)
     {
-        throw unreadable(path, "became shorter while it was read; wait until it is written");
+        throw becameShorter(path);
     }
     return text;
+}
+
+FileHash hashFile(const std::string& path)
+{
+    OpenFile file(path);
+    ContentHasher hasher;
+    FileHash hash;
+    for (std::string part = file.read(1 << 20); !part.empty(); part = file.read(1 << 20))
+    {
+        hasher.add(part.data(), part.size());
+        hash.fileBytes += part.size();
+    }
+    if (hash.fileBytes < file.bytes)
+    {
+        throw becameShorter(path);
+    }
+    hash.content = hasher.get();
+    return hash;
 }
 
 } // namespace osgPagedTexture

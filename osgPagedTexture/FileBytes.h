@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/ContentHash.h>
+
 #include <cstdint>
 #include <string>
 
@@ -18,5 +20,14 @@ FileHead readFileHead(const std::string& path, std::size_t count);
 
 /// Reads a whole regular file. Throws ImageError, also where it shrinks meanwhile.
 std::string readFileBytes(const std::string& path);
+
+struct FileHash
+{
+    ContentHash content;
+    std::uint64_t fileBytes = 0;
+};
+
+/// Hashes a regular file of any size, a MiB at a time. Throws ImageError as readFileBytes() does.
+FileHash hashFile(const std::string& path);
 
 } // namespace osgPagedTexture

@@ -21,13 +21,13 @@ AtlasPhoto describePhoto(const std::string& folder, const std::string& path)
     ImageLimits any;
     any.maxPixels = any.maxBytes = std::numeric_limits<std::uint64_t>::max();
     const ImageInfo info = readImageInfo(file, any, false);
-    const std::string bytes = readFileBytes(file);
+    const FileHash hash = hashFile(file);
     AtlasPhoto photo;
     photo.path = path;
     photo.width = info.width;
     photo.height = info.height;
-    photo.bytes = bytes.size();
-    photo.hash = hashText(bytes).text();
+    photo.bytes = hash.fileBytes;
+    photo.hash = hash.content.text();
     // A file that is written twice within a step of the file system's clock keeps its time, so a
     // fresh time stands for nothing.
     constexpr std::int64_t settled = 2000000000;

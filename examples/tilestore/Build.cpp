@@ -60,8 +60,8 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
   --padding N            [padding] pixels around photographs that repeat their edge; default 12
   --max-width N          [maxWidth] of the picture that they are laid out in
   --memory SIZE          [memory] for rows of it, such as 512MiB; default 1GiB. The layout gets
-                         as narrow as that takes. Progressive JPEGs need 3 bytes a pixel
-                         besides, while rows cross them
+                         as narrow as that takes. The program itself needs some 30 MiB besides,
+                         progressive JPEGs 3 bytes a pixel while rows cross them
   --threads N            [threads] default: as many as the machine has cores
   --not-updatable        [notUpdatable] writes no STORE.mips
   --no-sync              [noSync] does not wait for the disk
