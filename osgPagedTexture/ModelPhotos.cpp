@@ -85,20 +85,14 @@ struct TriangleAdder
     }
 };
 
-class PhotoCollector : public osg::NodeVisitor
+class PhotoCollector : public TextureStateVisitor
 {
 public:
-    PhotoCollector(ModelPhotos& result, bool withPlaces)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _result(result), _withPlaces(withPlaces)
+    PhotoCollector(ModelPhotos& result, bool withPlaces) : _result(result), _withPlaces(withPlaces)
     {
     }
 
-    void apply(osg::Node& node) override
-    {
-        _state.push(node.getStateSet());
-        traverse(node);
-        _state.pop();
-    }
+    using TextureStateVisitor::apply;
     void apply(osg::Transform& node) override
     {
         _matrices.push_back(_matrices.back());
@@ -108,12 +102,12 @@ public:
     }
     void apply(osg::PagedLOD& node) override { applyPaged(node, node.getNumFileNames()); }
     void apply(osg::ProxyNode& node) override { applyPaged(node, node.getNumFileNames()); }
-    void apply(osg::Drawable& drawable) override
+
+protected:
+    void visit(osg::Drawable& drawable, const TextureState& state) override
     {
-        _state.push(drawable.getStateSet());
-        for (unsigned int unit = 0; unit < _state.getUnits(); ++unit)
-            add(drawable, unit, _state.get(unit));
-        _state.pop();
+        for (unsigned int unit = 0; unit < state.getUnits(); ++unit)
+            add(drawable, unit, state.get(unit));
     }
 
 private:
@@ -207,7 +201,6 @@ private:
 
     ModelPhotos& _result;
     const bool _withPlaces;
-    TextureState _state;
     std::vector<osg::Matrixd> _matrices{osg::Matrixd()};
     std::map<const osg::Image*, std::size_t> _ofImage;
     std::map<std::string, std::size_t> _ofFile;

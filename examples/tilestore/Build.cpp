@@ -259,16 +259,13 @@ void writePictures(const BuildConfig& build, Outcome& outcome)
 
 Json toJson(const BuildConfig& build, const Outcome& outcome)
 {
-    double pixels = 0.0;
-    for (const AtlasPhoto& photo : outcome.layout.photos)
-        pixels += double(photo.getPlace().width) * double(photo.getPlace().height);
     Json json;
     json["store"] = build.store;
     json["layout"] = build.layout;
     json["width"] = outcome.layout.width;
     json["height"] = outcome.layout.height;
     json["photographs"] = outcome.layout.photos.size();
-    json["occupied"] = pixels / (double(outcome.layout.width) * double(outcome.layout.height));
+    json["occupied"] = outcome.layout.getOccupiedShare();
     json["levels"] = outcome.settings.grid.getLevels();
     json["encodedTiles"] = outcome.report.encodedTiles;
     json["uniformTiles"] = outcome.report.uniformTiles;

@@ -98,6 +98,28 @@ TEST_F(OsgTileStorePhotosGLTest, aTightLayoutBecomesAStoreAndAModel)
     EXPECT_TRUE(std::filesystem::exists(output));
 }
 
+TEST_F(OsgTileStorePhotosGLTest, whatTheModelDoesNotShowCanBeFlat)
+{
+    const auto build = [&](const std::string& name, const std::vector<std::string>& options)
+    {
+        const std::string layout = _folder.file(name + ".layout.json");
+        std::vector<std::string> words{"layout", _model, layout, "--margin", "2"};
+        words.insert(words.end(), options.begin(), options.end());
+        run(words);
+        return run({"build", layout, "--store", _folder.file(name + ".tiles"), "--format", "png"})
+            .at("tileBytes")
+            .get<double>();
+    };
+    const double whole = build("whole", {}), tight = build("tight", {"--tight"});
+    EXPECT_LT(build("flat", {"--flat"}), 0.8 * whole);
+    EXPECT_LT(build("both", {"--flat", "--tight"}), tight);
+    const std::string output = _folder.file("flat.osgb");
+    const json moved = run(
+        {"atlas", _model, _folder.file("flat.layout.json"), _folder.file("flat.tiles"), output});
+    EXPECT_EQ(moved.at("writtenTriangles"), 20 * 16 * 2);
+    EXPECT_TRUE(moved.at("left").empty());
+}
+
 TEST_F(OsgTileStorePhotosGLTest, neighboursHaveTheLengthsOfTheirSeams)
 {
     const json one = run({"neighbours", _model, "camera2"}).at("photographs");

@@ -131,36 +131,80 @@ TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
     }
 }
 
+/// A running `update --watch`.
+class Watch
+{
+public:
+    explicit Watch(const std::string& store) : _process(fork())
+    {
+        if (_process == 0)
+        {
+            execl(OSGKITS_OSGTILESTORE, "osgtilestore", "update", "--watch", store.c_str(),
+                  nullptr);
+            _exit(127);
+        }
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    /// Asks it to end and returns its exit code.
+    int end() const
+    {
+        kill(_process, SIGTERM);
+        int status = 0;
+        waitpid(_process, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    /// Two looks, a second apart, and the update; the rest is for a busy machine.
+    template <class Done> static bool waitUntil(const Done& done)
+    {
+        for (int wait = 0; wait < 300 && !done(); ++wait)
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        return done();
+    }
+
+private:
+    const pid_t _process;
+};
+
 TEST(OsgTileStoreUpdate, aWatchUpdatesWhatIsSavedAndEndsWhenAsked)
 {
     const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
-    const pid_t watch = fork();
-    if (watch == 0)
-    {
-        execl(OSGKITS_OSGTILESTORE, "osgtilestore", "update", "--watch", sample.store().c_str(),
-              nullptr);
-        _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const Watch watch(sample.store());
     const auto size = [&] { return fs::file_size(sample.store()); };
     for (int round = 0; round < 2; ++round)
     {
         const auto before = size();
         sample.write("5", 40 + round);
-        // Two looks, a second apart, and the update; the rest is for a busy machine.
-        for (int wait = 0; wait < 300 && size() == before; ++wait)
-        {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        EXPECT_NE(size(), before) << round;
+        EXPECT_TRUE(Watch::waitUntil([&] { return size() != before; })) << round;
     }
-    kill(watch, SIGTERM);
-    int status = 0;
-    waitpid(watch, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(watch.end(), 0);
     EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
     EXPECT_EQ(run({"update", sample.store()}).exitCode, 0);
+}
+
+TEST(OsgTileStoreUpdate, aWatchCompactsWhereMoreThanThirtyPercentAreDead)
+{
+    const PhotographStore sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    const auto deadShare = [&]
+    {
+        const auto info = run({"info", sample.store(), "--json"});
+        return json::parse(info.output)["deadShare"].get<double>();
+    };
+    for (int round = 0; round < 20 && deadShare() <= 0.3; ++round)
+    {
+        sample.write("1", 50 + round);
+        sample.write("2", 50 + round);
+        ASSERT_EQ(run({"update", sample.store()}).exitCode, 0);
+    }
+    ASSERT_GT(deadShare(), 0.3) << "only a watch compacts";
+    const Watch watch(sample.store());
+    sample.write("5", 99);
+    EXPECT_TRUE(Watch::waitUntil([&] { return deadShare() == 0.0; })) << deadShare();
+    EXPECT_EQ(watch.end(), 0);
+    EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
 }
 
 } // namespace
