@@ -190,6 +190,17 @@ std::string AtlasLayout::getContentHash() const
     return hashText(text).text();
 }
 
+double AtlasLayout::getOccupiedShare() const
+{
+    double pixels = 0.0;
+    for (const AtlasPhoto& photo : photos)
+    {
+        const PixelRect place = photo.getPlace();
+        pixels += double(place.width) * double(place.height);
+    }
+    return pixels / (double(width) * double(height));
+}
+
 AtlasLayout packAtlas(std::vector<AtlasPhoto> photos, const AtlasSettings& settings)
 {
     if (settings.padding < 0 || settings.padding > MaxPadding || settings.alignment < 1 ||

@@ -83,6 +83,9 @@ struct AtlasLayout
     /// A photograph's place and its padding, inside the atlas.
     OSGPAGEDTEXTURE_EXPORT PixelRect getCovered(const AtlasPhoto& photo) const;
 
+    /// Of the picture, what photographs take without their padding: 0 to 1.
+    OSGPAGEDTEXTURE_EXPORT double getOccupiedShare() const;
+
     /// Stands for all that decides a store's pixels: sizes, places and contents, not names, times
     /// or what is pending. 32 hexadecimal digits.
     OSGPAGEDTEXTURE_EXPORT std::string getContentHash() const;

@@ -21,31 +21,18 @@ namespace
 using Attribute = osg::StateAttribute;
 
 /// Visits each drawable with the state of unit 0 on the path to it.
-class UnitVisitor : public osg::NodeVisitor
+class UnitVisitor : public TextureStateVisitor
 {
-public:
-    UnitVisitor() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
-
-    void apply(osg::Node& node) override
-    {
-        _state.push(node.getStateSet());
-        traverse(node);
-        _state.pop();
-    }
-    void apply(osg::Drawable& drawable) override
-    {
-        _state.push(drawable.getStateSet());
-        const TextureUnit unit = _state.get(0);
-        _state.pop();
-        if (unit.texture && !unit.isOff)
-            visit(drawable, unit);
-    }
-
 protected:
-    virtual void visit(osg::Drawable& drawable, const TextureUnit& unit) = 0;
+    virtual void visitUnit(osg::Drawable& drawable, const TextureUnit& unit) = 0;
 
 private:
-    TextureState _state;
+    void visit(osg::Drawable& drawable, const TextureState& state) override
+    {
+        const TextureUnit unit = state.get(0);
+        if (unit.texture && !unit.isOff)
+            visitUnit(drawable, unit);
+    }
 };
 
 /// Whether a drawable shows different textures on different paths.
@@ -55,7 +42,7 @@ public:
     bool found = false;
 
 protected:
-    void visit(osg::Drawable& drawable, const TextureUnit& unit) override
+    void visitUnit(osg::Drawable& drawable, const TextureUnit& unit) override
     {
         const auto [place, isNew] = _seen.insert({&drawable, unit});
         found = found || (!isNew && place->second != unit);
@@ -79,7 +66,7 @@ public:
     std::set<const osg::Texture*> moved, kept;
 
 protected:
-    void visit(osg::Drawable& drawable, const TextureUnit& unit) override
+    void visitUnit(osg::Drawable& drawable, const TextureUnit& unit) override
     {
         if (!_seen.insert(&drawable).second)
             return;
@@ -121,7 +108,10 @@ private:
         if (unit.isGenerated)
             return "its coordinates are generated";
         GeometryPhoto photo;
-        photo.pieces = _places.find(photoFileOf(*unit.texture, _model.images.get()));
+        const std::string file = photoFileOf(*unit.texture, _model.images.get());
+        if (file.empty())
+            return "it is inside of the model and no file";
+        photo.pieces = _places.find(file);
         if (!photo.pieces)
             return "it is not in the layout";
         photo.wrapS = wrapOf(*unit.texture, osg::Texture::WRAP_S);

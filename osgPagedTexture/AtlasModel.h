@@ -54,7 +54,8 @@ enum class AtlasModelViewer
 
 /// Writes the model in the format of its name. For any viewer, OSG's own formats have the overview
 /// inside, others in a file beside. Photographs that it still shows are named from its folder.
-/// Throws ModelError.
+/// Older files are replaced when all is written. Throws ModelError, and TileStoreError where a file
+/// cannot be written.
 OSGPAGEDTEXTURE_EXPORT void writeAtlasModel(const ModelPhotos& model, const std::string& path,
                                             AtlasModelViewer viewer = AtlasModelViewer::Kit);
 

@@ -4,6 +4,8 @@
 #include <osgPagedTexture/FileImages.h>
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/PictureFile.h>
+#include <osgPagedTexture/StoreFile.h>
+#include <osgPagedTexture/TileStore.h>
 #include <osgPagedTexture/VirtualScene.h>
 
 #include <osg/NodeVisitor>
@@ -117,6 +119,60 @@ osg::ref_ptr<osg::Node> virtualSceneOf(osg::Node& model, const std::string& path
     return scene;
 }
 
+/// A folder beside a model that is written, with all the files that the plugin makes, and removed
+/// at its end: a full disk spares the model that was there.
+class ModelFolder
+{
+public:
+    explicit ModelFolder(const std::string& model)
+        : _model(model), _folder(model + ".part"), _file((_folder / _model.filename()).string())
+    {
+        std::error_code error;
+        fs::create_directories(_folder, error);
+        if (error)
+            throw ModelError("model '" + model + "' can't be written: folder '" + _folder.string() +
+                             "' can't be made: " + error.message());
+    }
+    ~ModelFolder()
+    {
+        std::error_code ignored;
+        fs::remove_all(_folder, ignored);
+    }
+    ModelFolder(const ModelFolder&) = delete;
+    ModelFolder& operator=(const ModelFolder&) = delete;
+
+    const std::string& getFile() const { return _file; }
+
+    void checkFiles() const
+    {
+        for (const auto& entry : fs::directory_iterator(_folder))
+            if (entry.is_regular_file())
+                checkRoom(entry.path().string());
+    }
+
+    /// The model itself comes last.
+    void moveOut() const
+    {
+        std::vector<fs::path> files;
+        for (const auto& entry : fs::directory_iterator(_folder))
+            if (entry.path() != _file)
+                files.push_back(entry.path());
+        files.emplace_back(_file);
+        for (const fs::path& file : files)
+        {
+            std::error_code error;
+            const fs::path place = _model.parent_path() / file.filename();
+            fs::rename(file, place, error);
+            if (error)
+                throw ModelError("'" + place.string() + "' can't be replaced: " + error.message());
+        }
+    }
+
+private:
+    const fs::path _model, _folder;
+    const std::string _file;
+};
+
 } // namespace
 
 void writeAtlasModel(const ModelPhotos& model, const std::string& path, AtlasModelViewer viewer)
@@ -134,8 +190,10 @@ void writeAtlasModel(const ModelPhotos& model, const std::string& path, AtlasMod
         viewer == AtlasModelViewer::Kit && hasClassesOfKits(extension)
             ? virtualSceneOf(*model.model, path)
             : model.model;
+    const ModelFolder folder(path);
     const osgDB::ReaderWriter::WriteResult result =
-        registry->writeNode(*written, path, registry->getOptions());
+        registry->writeNode(*written, folder.getFile(), registry->getOptions());
+    folder.checkFiles();
     if (!result.success())
     {
         const std::string cause = !result.message().empty() ? result.message()
@@ -143,6 +201,7 @@ void writeAtlasModel(const ModelPhotos& model, const std::string& path, AtlasMod
                                                         : "its plugin failed";
         throw ModelError("model '" + path + "' can't be written: " + cause);
     }
+    folder.moveOut();
 }
 
 } // namespace osgPagedTexture

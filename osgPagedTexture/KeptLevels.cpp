@@ -32,13 +32,13 @@ void fill(std::vector<std::uint8_t>& pixels, std::size_t channels, const TileCol
 
 KeptLevels::KeptLevels(const std::string& path, TileBuilder& builder,
                        const AtlasOccupancy& occupancy, const TileBuildSettings& settings,
-                       const TilePackWriter::Options& options, std::uint64_t maxBytes)
+                       const TilePackWriter::Options& options)
     : _path(path), _builder(builder), _occupancy(occupancy), _background(settings.background),
       _linearLight(settings.linearLight), _channels(std::size_t(settings.channels)),
-      _maxTiles(
-          std::max<std::size_t>(maxBytes / (std::uint64_t(builder.getGrid().getPayload()) *
-                                            builder.getGrid().getPayload() * settings.channels),
-                                64)),
+      _maxTiles(std::max<std::size_t>(settings.maxBytes / 4 /
+                                          (std::uint64_t(builder.getGrid().getPayload()) *
+                                           builder.getGrid().getPayload() * settings.channels),
+                                      16)),
       _grid(gridOf(builder)), _writer(std::make_unique<TilePackWriter>(path, options)),
       _reader(std::make_unique<TilePackReader>(path))
 {

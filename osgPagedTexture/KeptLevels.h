@@ -21,11 +21,10 @@ class KeptLevels
 {
 public:
     /// Opens the packed store `path` to change it. The builder says how tiles are encoded and which
-    /// of them hold anything. Beyond `maxBytes` of pixels, what is changed is committed. Throws
-    /// TileStoreError, also where the store is not the builder's.
+    /// of them hold anything. Beyond a quarter of the memory in pixels, what is changed is
+    /// committed. Throws TileStoreError, also where the store is not the builder's.
     KeptLevels(const std::string& path, TileBuilder& builder, const AtlasOccupancy& occupancy,
-               const TileBuildSettings& settings, const TilePackWriter::Options& options,
-               std::uint64_t maxBytes = 256 << 20);
+               const TileBuildSettings& settings, const TilePackWriter::Options& options);
     ~KeptLevels();
 
     const TileGrid& getGrid() const { return _grid; }

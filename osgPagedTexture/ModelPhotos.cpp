@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/ArrayPoint.h>
 #include <osgPagedTexture/FileImages.h>
+#include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/TextureState.h>
 
 #include <osg/NodeVisitor>
@@ -17,6 +18,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -83,20 +85,14 @@ struct TriangleAdder
     }
 };
 
-class PhotoCollector : public osg::NodeVisitor
+class PhotoCollector : public TextureStateVisitor
 {
 public:
-    PhotoCollector(ModelPhotos& result, bool withPlaces)
-        : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN), _result(result), _withPlaces(withPlaces)
+    PhotoCollector(ModelPhotos& result, bool withPlaces) : _result(result), _withPlaces(withPlaces)
     {
     }
 
-    void apply(osg::Node& node) override
-    {
-        _state.push(node.getStateSet());
-        traverse(node);
-        _state.pop();
-    }
+    using TextureStateVisitor::apply;
     void apply(osg::Transform& node) override
     {
         _matrices.push_back(_matrices.back());
@@ -106,12 +102,12 @@ public:
     }
     void apply(osg::PagedLOD& node) override { applyPaged(node, node.getNumFileNames()); }
     void apply(osg::ProxyNode& node) override { applyPaged(node, node.getNumFileNames()); }
-    void apply(osg::Drawable& drawable) override
+
+protected:
+    void visit(osg::Drawable& drawable, const TextureState& state) override
     {
-        _state.push(drawable.getStateSet());
-        for (unsigned int unit = 0; unit < _state.getUnits(); ++unit)
-            add(drawable, unit, _state.get(unit));
-        _state.pop();
+        for (unsigned int unit = 0; unit < state.getUnits(); ++unit)
+            add(drawable, unit, state.get(unit));
     }
 
 private:
@@ -205,7 +201,6 @@ private:
 
     ModelPhotos& _result;
     const bool _withPlaces;
-    TextureState _state;
     std::vector<osg::Matrixd> _matrices{osg::Matrixd()};
     std::map<const osg::Image*, std::size_t> _ofImage;
     std::map<std::string, std::size_t> _ofFile;
@@ -227,6 +222,27 @@ PhotoWrap wrapOf(const osg::Texture& texture, osg::Texture::WrapParameter side)
     }
 }
 
+namespace
+{
+
+/// Whether a picture that a model has inside may be the file of its name.
+bool hasSize(const std::string& file, const osg::Image& image)
+{
+    try
+    {
+        ImageLimits any;
+        any.maxPixels = any.maxBytes = std::numeric_limits<std::uint64_t>::max();
+        const ImageInfo info = readImageInfo(file, any, false);
+        return info.width == image.s() && info.height == image.t();
+    }
+    catch (const ImageError&)
+    {
+        return false;
+    }
+}
+
+} // namespace
+
 std::string photoFileOf(const osg::Texture& texture, const FileImages* images)
 {
     const osg::Image* image = texture.getImage(0);
@@ -234,7 +250,7 @@ std::string photoFileOf(const osg::Texture& texture, const FileImages* images)
         return {};
     const FileImages::Found* found = images ? images->find(*image) : nullptr;
     const std::string file = found ? found->file : osgDB::findDataFile(image->getFileName());
-    if (file.empty())
+    if (file.empty() || (!found && !hasSize(file, *image)))
         return {};
     std::error_code failure;
     const auto path = std::filesystem::weakly_canonical(file, failure);

@@ -37,7 +37,8 @@ struct OiioFunctions
     Pixels (*decodeTile)(const std::string& bytes, const std::string& name);
     std::unique_ptr<PictureWriter> (*openWriter)(const std::string& path, int width, int height,
                                                  int channels);
-    /// As writePictureFile() and writeLayers(), in place. Throw std::runtime_error.
+    /// As writePictureFile() and writeLayers(), in place. Throw TileStoreError where the file
+    /// cannot be written, else std::runtime_error.
     void (*writePicture)(const std::string& path, const Pixels& pixels, int quality);
     void (*writePages)(const std::string& path, const std::vector<PictureLayer>& layers);
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/OiioFile.h>
 
+#include <osgPagedTexture/OiioTarget.h>
+
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
 
@@ -32,21 +34,24 @@ OIIO::ImageSpec specOf(const Pixels& pixels)
     return spec;
 }
 
-void write(OIIO::ImageOutput& output, const std::string& path, const OIIO::ImageSpec& spec,
-           OIIO::ImageOutput::OpenMode mode, const Pixels& pixels)
+void write(OIIO::ImageOutput& output, const OiioTarget* target, const std::string& path,
+           const OIIO::ImageSpec& spec, OIIO::ImageOutput::OpenMode mode, const Pixels& pixels)
 {
     const auto stride = OIIO::stride_t(pixels.width) * pixels.channels;
     if (!output.open(path, spec, mode) ||
         !output.write_image(OIIO::TypeUInt8, pixels.row(pixels.height - 1), OIIO::AutoStride,
                             -stride))
     {
+        checkWritten(target, path);
         fail(output.geterror());
     }
 }
 
-void close(OIIO::ImageOutput& output)
+void close(OIIO::ImageOutput& output, const OiioTarget* target, const std::string& path)
 {
-    if (!output.close())
+    const bool good = output.close();
+    checkWritten(target, path);
+    if (!good)
     {
         fail(output.geterror());
     }
@@ -56,7 +61,9 @@ void close(OIIO::ImageOutput& output)
 
 void writePicture(const std::string& path, const Pixels& pixels, int quality)
 {
+    std::unique_ptr<OiioTarget> target; // outlives the output
     const auto output = createOutput(path);
+    target = OiioTarget::lead(*output, path);
     OIIO::ImageSpec spec = specOf(pixels);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("Compression", "jpeg:" + std::to_string(quality));
@@ -73,23 +80,25 @@ void writePicture(const std::string& path, const Pixels& pixels, int quality)
     {
         spec.attribute("jpeg:subsampling", "4:4:4");
     }
-    write(*output, path, spec, OIIO::ImageOutput::Create, pixels);
-    close(*output);
+    write(*output, target.get(), path, spec, OIIO::ImageOutput::Create, pixels);
+    close(*output, target.get(), path);
 }
 
 void writePages(const std::string& path, const std::vector<PictureLayer>& layers)
 {
+    std::unique_ptr<OiioTarget> target; // outlives the output
     const auto output = createOutput("tiff");
+    target = OiioTarget::lead(*output, path);
     auto mode = OIIO::ImageOutput::Create;
     for (const PictureLayer& layer : layers)
     {
         OIIO::ImageSpec spec = specOf(layer.pixels);
         spec.attribute("tiff:PageName", layer.name);
         spec.attribute("Compression", "zip");
-        write(*output, path, spec, mode, layer.pixels);
+        write(*output, target.get(), path, spec, mode, layer.pixels);
         mode = OIIO::ImageOutput::AppendSubimage;
     }
-    close(*output);
+    close(*output, target.get(), path);
 }
 
 } // namespace osgPagedTexture::oiio

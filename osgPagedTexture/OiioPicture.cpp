@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/OiioFile.h>
 
+#include <osgPagedTexture/OiioTarget.h>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/strutil.h>
@@ -39,13 +41,14 @@ public:
     }
     ~Writer() override
     {
-        if (_finished || _y == 0)
+        if (_finished || !_started)
         {
             return;
         }
         // Else libpng complains on the terminal about a picture that ends early.
         const std::vector<std::uint8_t> blank(std::size_t(_spec.width) * _spec.nchannels);
-        while (_y < _spec.height && _output->write_scanline(_y, 0, OIIO::TypeUInt8, blank.data()))
+        while (_open && _y < _spec.height &&
+               _output->write_scanline(_y, 0, OIIO::TypeUInt8, blank.data()))
         {
             ++_y;
         }
@@ -57,20 +60,35 @@ public:
     void write(const std::uint8_t* row) override
     {
         // Not before there is something to write: no file comes of a damaged store.
-        check(_y > 0 || _output->open(_path, _spec));
+        if (_y == 0)
+        {
+            _target = OiioTarget::lead(*_output, _path);
+            _started = true;
+            _open = _output->open(_path, _spec);
+            check(_open);
+        }
         check(_output->write_scanline(_y++, 0, OIIO::TypeUInt8, row));
     }
     void finish() override
     {
         check(_output->close());
+        checkWritten(_target.get(), _path);
         _finished = true;
     }
 
 private:
     void check(bool good) const
     {
+        if (_target)
+        {
+            _target->check();
+        }
         if (!good)
         {
+            if (_started)
+            {
+                checkWritten(_target.get(), _path);
+            }
             const std::string cause = oneLine(_output ? _output->geterror() : OIIO::geterror());
             fail(Kind::Unwritable, "'" + _path + "' cannot be written (" + cause +
                                        "); name a file like region.png where there is room");
@@ -79,9 +97,11 @@ private:
 
     const std::string _path;
     OIIO::ImageSpec _spec;
+    std::unique_ptr<OiioTarget> _target; ///< Or null.
     std::unique_ptr<OIIO::ImageOutput> _output;
     int _y = 0;
-    bool _finished = false;
+    bool _started = false; ///< There is a file.
+    bool _open = false, _finished = false;
 };
 
 } // namespace

@@ -81,21 +81,13 @@ private:
         if (float(1.0 / inverse) >= depth)
             return;
         depth = float(1.0 / inverse);
-        const glm::vec3 color = lookUp(_source, inSource(coordinate / inverse, surface));
+        const glm::dvec2 place =
+            placeInPhoto(coordinate / inverse, surface, {_source.width, _source.height});
+        const glm::vec3 color = lookUp(_source, place);
         std::uint8_t* pixel = layer.row(y) + std::ptrdiff_t(x) * 4;
         for (int channel = 0; channel < 3; ++channel)
             pixel[channel] = static_cast<std::uint8_t>(color[channel] + 0.5f);
         pixel[3] = 255;
-    }
-
-    glm::dvec2 inSource(const glm::dvec2& coordinate, const PhotoSurface& surface) const
-    {
-        const WrapRun s = wrapRunOf(coordinate.x, coordinate.x, surface.wrapS);
-        const WrapRun t = wrapRunOf(coordinate.y, coordinate.y, surface.wrapT);
-        return glm::clamp(glm::dvec2(wrapIntoPhoto(coordinate.x, s.first, surface.wrapS),
-                                     wrapIntoPhoto(coordinate.y, t.first, surface.wrapT)),
-                          0.0, 1.0) *
-               glm::dvec2(_source.width, _source.height);
     }
 
     const Pixels& _source;

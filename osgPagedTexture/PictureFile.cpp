@@ -3,6 +3,7 @@
 
 #include <osgPagedTexture/ImageFile.h>
 #include <osgPagedTexture/OiioModule.h>
+#include <osgPagedTexture/TileStore.h>
 
 #include <filesystem>
 
@@ -39,6 +40,11 @@ template <class Write> void replaceFile(const std::string& path, const Write& wr
     try
     {
         writeTo(functions, half.string());
+    }
+    catch (const TileStoreError&) // says the file and why
+    {
+        fs::remove(half, failure);
+        throw;
     }
     catch (const std::exception& error)
     {

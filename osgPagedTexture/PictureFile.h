@@ -12,7 +12,7 @@ namespace osgPagedTexture
 
 /// Writes a picture of 1, 3 or 4 channels, the format by the extension; `quality` 1 to 100 where
 /// that is lossy. Takes the place of an older file at once, when it is complete. Creates folders on
-/// the way. Throws ImageError.
+/// the way. Throws ImageError, and TileStoreError where the file cannot be written.
 OSGPAGEDTEXTURE_EXPORT void writePictureFile(const std::string& path, const Pixels& pixels,
                                              int quality = 95);
 

@@ -20,12 +20,7 @@ glm::dvec2 placeOf(const Photo& photo, const PhotoSeam::Side& side, double share
 {
     const PhotoSurface& surface = photo.surfaces[side.surface];
     const glm::dvec2 point = glm::mix(glm::dvec2(side.from), glm::dvec2(side.to), share);
-    const WrapRun s = wrapRunOf(point.x, point.x, surface.wrapS);
-    const WrapRun t = wrapRunOf(point.y, point.y, surface.wrapT);
-    return glm::clamp(glm::dvec2(wrapIntoPhoto(point.x, s.first, surface.wrapS),
-                                 wrapIntoPhoto(point.y, t.first, surface.wrapT)),
-                      0.0, 1.0) *
-           glm::dvec2(photo.width, photo.height);
+    return placeInPhoto(point, surface, {photo.width, photo.height});
 }
 
 double pixelsOf(const Photo& photo, const PhotoSeam::Side& side)

@@ -27,9 +27,13 @@ using Kind = TileStoreError::Kind;
     const int cause = errno;
     std::string remedy = kind == Kind::Unreadable ? "check the path and its permissions"
                                                   : "check the folder's permissions";
-    if (cause == ENOSPC || cause == EDQUOT || cause == EFBIG)
+    if (cause == ENOSPC || cause == EDQUOT)
     {
         remedy = "make room on the disk";
+    }
+    else if (cause == EFBIG)
+    {
+        remedy = "allow larger files (ulimit -f), or use another file system";
     }
     else if (cause == EROFS)
     {
@@ -183,6 +187,17 @@ void StoreFile::moveTo(const std::string& path, bool durable)
     {
         syncFolder(path);
     }
+}
+
+void checkRoom(const std::string& path)
+{
+    constexpr std::size_t block = 4096; // of the file system, whose last one may have room left
+    StoreFile file(path, StoreFile::Mode::Change);
+    const std::uint64_t bytes = file.getBytes();
+    const std::string zeros(block, '\0');
+    file.write(zeros.data(), zeros.size(), bytes);
+    file.truncate(bytes);
+    file.sync();
 }
 
 StoreLock::StoreLock(const std::string& storePath, double waitSeconds)

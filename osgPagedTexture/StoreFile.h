@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osgPagedTexture/Export.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,7 +12,7 @@ namespace osgPagedTexture
 {
 
 /// A file that is read and written at places. Every failure throws a TileStoreError that names it.
-class StoreFile
+class OSGPAGEDTEXTURE_EXPORT StoreFile
 {
 public:
     enum class Mode
@@ -47,6 +49,10 @@ private:
     std::string _path;
     int _descriptor;
 };
+
+/// Throws TileStoreError where a file cannot grow any more. Many writers of other libraries do not
+/// see that a disk is full; a file that they could not write to its end does not grow either.
+OSGPAGEDTEXTURE_EXPORT void checkRoom(const std::string& path);
 
 /// The right to write a store, held until the end of the object or of the process.
 class StoreLock

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/TextureState.h>
 
+#include <osg/Drawable>
+
 #include <algorithm>
 
 namespace osgPagedTexture
@@ -78,6 +80,20 @@ void TextureState::pop()
 TextureUnit TextureState::get(unsigned int unit) const
 {
     return unit < getUnits() ? _stack.back()[unit].unit : TextureUnit();
+}
+
+void TextureStateVisitor::apply(osg::Node& node)
+{
+    _state.push(node.getStateSet());
+    traverse(node);
+    _state.pop();
+}
+
+void TextureStateVisitor::apply(osg::Drawable& drawable)
+{
+    _state.push(drawable.getStateSet());
+    visit(drawable, _state);
+    _state.pop();
 }
 
 } // namespace osgPagedTexture

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <osg/NodeVisitor>
 #include <osg/StateSet>
 #include <osg/TexMat>
 #include <osg/Texture>
@@ -46,6 +47,23 @@ private:
     static void merge(Entry& entry, const osg::StateSet& stateSet, unsigned int unit);
 
     std::vector<std::vector<Entry>> _stack{{}};
+};
+
+/// Goes to each drawable, on each path, with the texture units there.
+class TextureStateVisitor : public osg::NodeVisitor
+{
+public:
+    TextureStateVisitor() : osg::NodeVisitor(TRAVERSE_ALL_CHILDREN) {}
+
+    using osg::NodeVisitor::apply;
+    void apply(osg::Node& node) override;
+    void apply(osg::Drawable& drawable) override;
+
+protected:
+    virtual void visit(osg::Drawable& drawable, const TextureState& state) = 0;
+
+private:
+    TextureState _state;
 };
 
 } // namespace osgPagedTexture

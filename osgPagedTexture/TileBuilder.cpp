@@ -109,11 +109,13 @@ void TileBuilder::Content::checkMemory(const WalkSettings& walk) const
     const std::uint64_t bytes = TileWalk::getRowBytes(walk);
     if (bytes > settings.maxBytes)
     {
-        constexpr std::uint64_t MiB = 1 << 20;
+        constexpr std::uint64_t KiB = 1 << 10, MiB = 1 << 20;
+        const std::string allowed = settings.maxBytes < MiB
+                                        ? std::to_string(settings.maxBytes / KiB) + " KiB"
+                                        : std::to_string(settings.maxBytes / MiB) + " MiB";
         refuse("an atlas " + std::to_string(walk.window.width) + " pixels wide takes " +
-               std::to_string(bytes / MiB + 1) + " MiB of rows, more than the " +
-               std::to_string(settings.maxBytes / MiB) +
-               " MiB allowed; allow more memory, lay it out narrower or make the tiles smaller");
+               std::to_string(bytes / MiB + 1) + " MiB of rows, more than the " + allowed +
+               " allowed; allow more memory, lay it out narrower or make the tiles smaller");
     }
 }
 

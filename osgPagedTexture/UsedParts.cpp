@@ -2,6 +2,8 @@
 #include <osgPagedTexture/UsedParts.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace osgPagedTexture
 {
@@ -95,6 +97,18 @@ void addBox(std::vector<Box>& boxes, Box box)
     boxes.push_back(box);
 }
 
+std::vector<PixelRect> partsOf(const std::vector<Box>& boxes, const Pixels& mask, int block)
+{
+    std::vector<PixelRect> parts;
+    for (const Box& box : boxes)
+    {
+        const int left = box.left * block, top = box.top * block;
+        parts.push_back({left, top, std::min((box.right + 1) * block, mask.width) - left,
+                         std::min((box.bottom + 1) * block, mask.height) - top});
+    }
+    return parts;
+}
+
 } // namespace
 
 std::vector<PixelRect> findUsedParts(const Pixels& mask, int block)
@@ -108,14 +122,34 @@ std::vector<PixelRect> findUsedParts(const Pixels& mask, int block)
     std::sort(boxes.begin(), boxes.end(),
               [](const Box& a, const Box& b)
               { return std::pair(a.top, a.left) < std::pair(b.top, b.left); });
-    std::vector<PixelRect> parts;
-    for (const Box& box : boxes)
+    return partsOf(boxes, mask, block);
+}
+
+std::vector<PixelRect> findUsedBlocks(const Pixels& mask, int block)
+{
+    Blocks blocks(mask, block);
+    std::vector<Box> boxes;
+    std::map<std::pair<int, int>, std::size_t> above; // boxes that end in the row above, by sides
+    for (int y = 0; y < blocks.rows; ++y)
     {
-        const int left = box.left * block, top = box.top * block;
-        parts.push_back({left, top, std::min((box.right + 1) * block, mask.width) - left,
-                         std::min((box.bottom + 1) * block, mask.height) - top});
+        std::map<std::pair<int, int>, std::size_t> here;
+        for (int x = 0; x < blocks.columns; ++x)
+        {
+            const int left = x;
+            while (x < blocks.columns && blocks.at(x, y) != 0)
+                ++x;
+            if (x == left)
+                continue;
+            const auto found = above.find({left, x - 1});
+            const std::size_t number = found == above.end() ? boxes.size() : found->second;
+            if (found == above.end())
+                boxes.push_back({left, y, x - 1, y});
+            boxes[number].bottom = y;
+            here[{left, x - 1}] = number;
+        }
+        above = std::move(here);
     }
-    return parts;
+    return partsOf(boxes, mask, block);
 }
 
 } // namespace osgPagedTexture

@@ -16,4 +16,8 @@ namespace osgPagedTexture
 /// a mask without used pixels.
 OSGPAGEDTEXTURE_EXPORT std::vector<PixelRect> findUsedParts(const Pixels& mask, int block = 16);
 
+/// The same as closely as blocks can: what a mask uses and nothing but the rest of its blocks, in
+/// few rectangles.
+OSGPAGEDTEXTURE_EXPORT std::vector<PixelRect> findUsedBlocks(const Pixels& mask, int block = 16);
+
 } // namespace osgPagedTexture

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/WrapCells.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -48,6 +50,17 @@ double wrapIntoPhoto(double coordinate, std::int64_t cell, PhotoWrap wrap)
     default:
         return coordinate;
     }
+}
+
+glm::dvec2 placeInPhoto(const glm::dvec2& coordinate, const PhotoSurface& surface,
+                        const glm::dvec2& size)
+{
+    const WrapRun s = wrapRunOf(coordinate.x, coordinate.x, surface.wrapS);
+    const WrapRun t = wrapRunOf(coordinate.y, coordinate.y, surface.wrapT);
+    return glm::clamp(glm::dvec2(wrapIntoPhoto(coordinate.x, s.first, surface.wrapS),
+                                 wrapIntoPhoto(coordinate.y, t.first, surface.wrapT)),
+                      0.0, 1.0) *
+           size;
 }
 
 } // namespace osgPagedTexture

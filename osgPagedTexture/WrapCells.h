@@ -26,6 +26,10 @@ WrapRun wrapRunOf(double low, double high, PhotoWrap wrap);
 /// be told from its neighbours.
 double wrapIntoPhoto(double coordinate, std::int64_t cell, PhotoWrap wrap);
 
+/// The pixel, from the left bottom corner, that a photograph of this size shows at a coordinate.
+glm::dvec2 placeInPhoto(const glm::dvec2& coordinate, const PhotoSurface& surface,
+                        const glm::dvec2& size);
+
 /// The most cells of one triangle that are looked at one by one; a triangle that has more counts
 /// for all of the photograph.
 constexpr std::int64_t MostWrapCells = 4096;

@@ -126,6 +126,7 @@ int run(const Arguments& arguments)
     const std::string path = arguments.files(1, 1, "MODEL")[0];
     const Options options = optionsOf(arguments, path);
     const ModelPhotos model = readModel(path, true);
+    requireFiles(model, path);
     std::vector<SeamSample> samples = sampleSeams(model.photos, findSeams(model.photos));
     readSeams(model.photos, samples);
     const double before = meanSeamStep(samples);

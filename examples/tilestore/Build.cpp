@@ -60,8 +60,8 @@ relative to it:  { "photos": "pictures", "store": "monument.tiles", "quality": 9
   --padding N            [padding] pixels around photographs that repeat their edge; default 12
   --max-width N          [maxWidth] of the picture that they are laid out in
   --memory SIZE          [memory] for rows of it, such as 512MiB; default 1GiB. The layout gets
-                         as narrow as that takes. Progressive JPEGs need 3 bytes a pixel
-                         besides, while rows cross them
+                         as narrow as that takes. The program itself needs some 30 MiB besides,
+                         progressive JPEGs 3 bytes a pixel while rows cross them
   --threads N            [threads] default: as many as the machine has cores
   --not-updatable        [notUpdatable] writes no STORE.mips
   --no-sync              [noSync] does not wait for the disk
@@ -259,16 +259,13 @@ void writePictures(const BuildConfig& build, Outcome& outcome)
 
 Json toJson(const BuildConfig& build, const Outcome& outcome)
 {
-    double pixels = 0.0;
-    for (const AtlasPhoto& photo : outcome.layout.photos)
-        pixels += double(photo.getPlace().width) * double(photo.getPlace().height);
     Json json;
     json["store"] = build.store;
     json["layout"] = build.layout;
     json["width"] = outcome.layout.width;
     json["height"] = outcome.layout.height;
     json["photographs"] = outcome.layout.photos.size();
-    json["occupied"] = pixels / (double(outcome.layout.width) * double(outcome.layout.height));
+    json["occupied"] = outcome.layout.getOccupiedShare();
     json["levels"] = outcome.settings.grid.getLevels();
     json["encodedTiles"] = outcome.report.encodedTiles;
     json["uniformTiles"] = outcome.report.uniformTiles;

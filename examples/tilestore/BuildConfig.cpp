@@ -72,7 +72,8 @@ Json readJson(const std::string& path)
     {
         std::string cause = error.what();
         std::replace(cause.begin(), cause.end(), '\n', ' ');
-        throw std::runtime_error("'" + path + "' is no JSON (" + cause + ")");
+        throw std::runtime_error("'" + path + "' is no JSON (" + cause +
+                                 "); of a model, make a layout first: osgtilestore layout");
     }
 }
 

@@ -25,7 +25,9 @@ Lays the photographs that a model shows out in one atlas and writes the layout's
 `build` makes the store and `atlas` the model's coordinates.
 
   --tight          only the parts that the model shows, each with a place of its own
-  --margin N       with --tight: pixels around what is shown, 0 to 4096; default 16
+  --flat           what the model does not show of them becomes the background, in blocks of 16
+                   pixels, so that the store gets smaller
+  --margin N       with --tight and --flat: pixels around what is shown, 0 to 4096; default 16
   --tile-side N    of the store that will be built, with borders; default 256
   --border N       of its tiles; default 8
   --padding N      pixels around photographs that repeat their edge; default 12
@@ -41,19 +43,53 @@ std::string relativeTo(const std::filesystem::path& layout, const std::string& f
     return std::filesystem::path(file).lexically_relative(folder).generic_string();
 }
 
-std::vector<AtlasPhoto> partsOf(const ModelPhotos& model, const std::string& layout, bool tight,
-                                int margin)
+/// Which parts of photographs have places, and what of them is not flat.
+struct Parts
+{
+    bool tight = false, flat = false;
+    int margin = 16;
+};
+
+/// A photograph's places.
+std::vector<AtlasPhoto> placesOf(AtlasPhoto photo, const Pixels& mask, const Parts& wanted)
+{
+    const std::vector<PixelRect> blocks =
+        wanted.flat ? findUsedBlocks(mask) : std::vector<PixelRect>();
+    std::vector<AtlasPhoto> places;
+    if (!wanted.tight)
+    {
+        photo.used = blocks;
+        if (!blocks.empty())
+            places.push_back(photo);
+        return places;
+    }
+    for (const PixelRect& part : findUsedParts(mask))
+    {
+        photo.used.clear();
+        for (const PixelRect& block : blocks) // each is in one part as a whole
+            if (block.x >= part.x && block.x < part.x + part.width && block.y >= part.y &&
+                block.y < part.y + part.height)
+                photo.used.push_back(block);
+        if (blocks.empty())
+            photo.used = {part};
+        places.push_back(photo);
+    }
+    return places;
+}
+
+std::vector<AtlasPhoto> partsOf(const ModelPhotos& model, const std::string& layout,
+                                const Parts& wanted)
 {
     osg::ref_ptr<osg::GraphicsContext> context;
     std::unique_ptr<MaskRenderer> renderer;
-    if (tight && !model.photos.empty())
+    if ((wanted.tight || wanted.flat) && !model.photos.empty())
     {
         context = makeOffscreenContext();
         renderer = std::make_unique<MaskRenderer>(*context);
     }
     MaskSettings masks;
     masks.conservative = true;
-    masks.margin = margin;
+    masks.margin = wanted.margin;
     const std::string folder = std::filesystem::absolute(layout).parent_path().string();
     std::vector<AtlasPhoto> parts;
     Progress progress("layout", "photographs");
@@ -61,19 +97,15 @@ std::vector<AtlasPhoto> partsOf(const ModelPhotos& model, const std::string& lay
     {
         progress.show(i, model.photos.size());
         const Photo& photo = model.photos[i];
-        if (photo.file.empty())
-            continue;
         AtlasPhoto part = describePhoto(folder, relativeTo(layout, photo.file));
         if (!renderer)
         {
             parts.push_back(part);
             continue;
         }
-        for (const PixelRect& used : findUsedParts(renderer->render(photo, masks).pixels))
-        {
-            part.used = {used};
-            parts.push_back(part);
-        }
+        for (const AtlasPhoto& place :
+             placesOf(part, renderer->render(photo, masks).pixels, wanted))
+            parts.push_back(place);
     }
     return parts;
 }
@@ -86,9 +118,10 @@ int run(const Arguments& arguments)
     AtlasSettings settings = AtlasSettings::forTiles(side, border);
     settings.padding = int(arguments.number("--padding", settings.padding, 0, 65536));
     const ModelPhotos model = readModel(files[0]);
-    const AtlasLayout layout = packAtlas(partsOf(model, files[1], arguments.has("--tight"),
-                                                 int(arguments.number("--margin", 16, 0, 4096))),
-                                         settings);
+    requireFiles(model, files[0]);
+    const Parts wanted{arguments.has("--tight"), arguments.has("--flat"),
+                       int(arguments.number("--margin", 16, 0, 4096))};
+    const AtlasLayout layout = packAtlas(partsOf(model, files[1], wanted), settings);
     writeAtlasLayout(files[1], layout);
     double pixels = 0.0, placed = 0.0;
     for (const Photo& photo : model.photos)
@@ -114,11 +147,15 @@ int run(const Arguments& arguments)
 
 } // namespace
 
-const Subcommand LayoutCommand{
-    "layout",
-    "an atlas of the photographs that a model shows",
-    Help,
-    {{"--tight", false}, {"--margin"}, {"--tile-side"}, {"--border"}, {"--padding"}},
-    run};
+const Subcommand LayoutCommand{"layout",
+                               "an atlas of the photographs that a model shows",
+                               Help,
+                               {{"--tight", false},
+                                {"--flat", false},
+                                {"--margin"},
+                                {"--tile-side"},
+                                {"--border"},
+                                {"--padding"}},
+                               run};
 
 } // namespace tilestore

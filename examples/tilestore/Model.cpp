@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <stdexcept>
 
 namespace tilestore
 {
@@ -43,6 +44,22 @@ osgPagedTexture::ModelPhotos readModel(const std::string& path, bool withPlaces)
     if (model.photos.empty())
         std::fprintf(stderr, "model '%s' shows no photograph\n", path.c_str());
     return model;
+}
+
+void requireFiles(const osgPagedTexture::ModelPhotos& model, const std::string& path)
+{
+    std::size_t inside = 0;
+    std::string first;
+    for (const osgPagedTexture::Photo& photo : model.photos)
+        if (photo.file.empty() && inside++ == 0)
+            first = photo.name;
+    if (inside == 0)
+        return;
+    throw std::runtime_error("'" + first + "'" +
+                             (inside > 1 ? " and " + grouped(inside - 1) + " more" : "") +
+                             " are pictures inside of the model and no files; write them to files, "
+                             "and name the new model: osgconv " +
+                             path + " unpacked.osgb -O WriteImageHint=WriteOut");
 }
 
 Json leftOf(const osgPagedTexture::ModelPhotos& model)

@@ -25,6 +25,12 @@ the seams are: in units of the model and in pixels of the photograph.
   --help   this text
 )";
 
+/// Or what the model calls a picture that is inside of it.
+std::string fileOf(const Photo& photo)
+{
+    return photo.file.empty() ? photo.name : photo.file;
+}
+
 int run(const Arguments& arguments)
 {
     const auto& files = arguments.files(1, 1000000, "MODEL [PHOTOGRAPH...]");
@@ -35,14 +41,14 @@ int run(const Arguments& arguments)
     for (std::size_t photo : choosePhotos(model.photos, names, {files.begin() + 1, files.end()}))
     {
         Json line{{"photograph", names[photo]},
-                  {"file", model.photos[photo].file},
+                  {"file", fileOf(model.photos[photo])},
                   {"neighbours", Json::array()}};
         if (!arguments.isJson())
             std::printf("%s\n", names[photo].c_str());
         for (const PhotoNeighbour& each : neighbours[photo])
         {
             line["neighbours"].push_back({{"photograph", names[each.photo]},
-                                          {"file", model.photos[each.photo].file},
+                                          {"file", fileOf(model.photos[each.photo])},
                                           {"seamLength", each.length},
                                           {"seamPixels", each.pixels},
                                           {"edges", each.edges}});

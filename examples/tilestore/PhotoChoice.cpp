@@ -22,7 +22,7 @@ std::vector<std::size_t> choosePhotos(const std::vector<osgPagedTexture::Photo>&
         const std::string path = std::filesystem::weakly_canonical(each, failure).string();
         const std::size_t before = chosen.size();
         for (std::size_t i = 0; i < photos.size(); ++i)
-            if (each == names[i] || path == photos[i].file ||
+            if (each == names[i] || each == photos[i].name || path == photos[i].file ||
                 each == std::filesystem::path(photos[i].file).filename())
                 chosen.push_back(i);
         if (chosen.size() == before)

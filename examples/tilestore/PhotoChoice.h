@@ -10,7 +10,7 @@
 namespace tilestore
 {
 
-/// Numbers of the photographs that a user has named: by path, by file name, or as `names` has them.
+/// Numbers of the photographs that a user has named: by path, by file name, as the model or as `names` has them.
 /// None named: all. Throws UsageError for one that the model does not show.
 std::vector<std::size_t> choosePhotos(const std::vector<osgPagedTexture::Photo>& photos,
                                       const std::vector<std::string>& names,

@@ -94,6 +94,7 @@ int run(const Arguments& arguments)
         std::filesystem::path(files[0]).parent_path() / "reference";
     const std::string folder = arguments.get("--output", standard.string());
     const ModelPhotos model = readModel(files[0], true);
+    requireFiles(model, files[0]);
     const Surroundings all{model};
     const auto chosen = choosePhotos(model.photos, all.names, {files.begin() + 1, files.end()});
     Json list = Json::array();

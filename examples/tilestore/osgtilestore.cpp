@@ -2,8 +2,11 @@
 #include "Subcommand.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <exception>
 #include <iostream>
 
@@ -96,6 +99,17 @@ int run(const std::vector<std::string>& words)
     return runSubcommand(*command, {words.begin() + 1, words.end()});
 }
 
+/// What is printed may go to a full disk.
+int flushOutput(int status)
+{
+    errno = 0;
+    const bool good = std::cout.flush().good() && std::fflush(stdout) == 0 && !std::ferror(stdout);
+    if (good)
+        return status;
+    const std::string cause = errno ? std::strerror(errno) : "the disk may be full";
+    return fail("", "standard output cannot be written: " + cause, std::max(status, 1));
+}
+
 } // namespace
 
 std::string grouped(std::uint64_t number)
@@ -128,5 +142,8 @@ void print(const Json& json)
 
 int main(int argc, char** argv)
 {
-    return tilestore::run({argv + 1, argv + argc});
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN); // writing fails instead, with a line that names the file
+#endif
+    return tilestore::flushOutput(tilestore::run({argv + 1, argv + argc}));
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "TileStoreRun.h"
-
-#include <support/TemporaryFolder.h>
+#include "PhotographStore.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -23,53 +21,9 @@ namespace
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string bytesOf(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-/// A folder of photographs, and a store of them.
-class Photographs
-{
-public:
-    Photographs()
-    {
-        fs::create_directories(_folder.file("photos/north"));
-        for (int i = 0; i < 12; ++i)
-        {
-            write(std::to_string(i), i);
-        }
-        write("north/1", 77);
-    }
-    std::string photos() const { return _folder.file("photos"); }
-    std::string photo(const std::string& name) const { return photos() + "/" + name + ".ppm"; }
-    std::string store() const { return _folder.file("photos.tiles"); }
-    void write(const std::string& name, int seed) const
-    {
-        std::ofstream file(photo(name), std::ios::binary);
-        file << "P6\n120 90\n255\n";
-        for (int i = 0; i < 120 * 90 * 3; ++i)
-        {
-            file.put(char((i * (seed + 3) + (i >> 8) * seed) % 251));
-        }
-    }
-    support::ProcessResult build(const std::string& store,
-                                 const std::vector<std::string>& more = {}) const
-    {
-        std::vector<std::string> words{"build",       photos(), "--store",  store, "--json",
-                                       "--tile-side", "40",     "--border", "4"};
-        words.insert(words.end(), more.begin(), more.end());
-        return run(words);
-    }
-
-private:
-    support::TemporaryFolder _folder;
-};
-
 TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     auto result = run({"update", sample.store(), "--json"});
     ASSERT_EQ(result.exitCode, 0) << result.errors;
@@ -93,7 +47,7 @@ TEST(OsgTileStoreUpdate, aChangedPhotographIsUpdatedToTheBytesOfAFullBuild)
 
 TEST(OsgTileStoreUpdate, partsOfTheLargePictureAreWrittenWhereTheyHaveChanged)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     const std::string folder = fs::path(sample.store()).parent_path().string();
     const std::string picture = folder + "/atlas.ppm";
     ASSERT_EQ(sample.build(sample.store(), {"--atlas", picture, "--atlas-side", "150"}).exitCode,
@@ -132,7 +86,7 @@ TEST(OsgTileStoreUpdate, partsOfTheLargePictureAreWrittenWhereTheyHaveChanged)
 
 TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     std::ofstream(sample.photo("3")) << "nothing";
     const auto result = run({"update", sample.store()});
@@ -144,7 +98,7 @@ TEST(OsgTileStoreUpdate, whatCannotBeReadIsNamedWithStatusOne)
 
 TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
     const std::string whole = bytesOf(sample.store());
     fs::remove(sample.store());
@@ -177,36 +131,80 @@ TEST(OsgTileStoreUpdate, partsOfSeveralProcessesMergeToTheStoreOfOne)
     }
 }
 
+/// A running `update --watch`.
+class Watch
+{
+public:
+    explicit Watch(const std::string& store) : _process(fork())
+    {
+        if (_process == 0)
+        {
+            execl(OSGKITS_OSGTILESTORE, "osgtilestore", "update", "--watch", store.c_str(),
+                  nullptr);
+            _exit(127);
+        }
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+    }
+    /// Asks it to end and returns its exit code.
+    int end() const
+    {
+        kill(_process, SIGTERM);
+        int status = 0;
+        waitpid(_process, &status, 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+    /// Two looks, a second apart, and the update; the rest is for a busy machine.
+    template <class Done> static bool waitUntil(const Done& done)
+    {
+        for (int wait = 0; wait < 300 && !done(); ++wait)
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        return done();
+    }
+
+private:
+    const pid_t _process;
+};
+
 TEST(OsgTileStoreUpdate, aWatchUpdatesWhatIsSavedAndEndsWhenAsked)
 {
-    const Photographs sample;
+    const PhotographStore sample;
     ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
-    const pid_t watch = fork();
-    if (watch == 0)
-    {
-        execl(OSGKITS_OSGTILESTORE, "osgtilestore", "update", "--watch", sample.store().c_str(),
-              nullptr);
-        _exit(127);
-    }
-    std::this_thread::sleep_for(std::chrono::seconds(1));
+    const Watch watch(sample.store());
     const auto size = [&] { return fs::file_size(sample.store()); };
     for (int round = 0; round < 2; ++round)
     {
         const auto before = size();
         sample.write("5", 40 + round);
-        // Two looks, a second apart, and the update; the rest is for a busy machine.
-        for (int wait = 0; wait < 300 && size() == before; ++wait)
-        {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        EXPECT_NE(size(), before) << round;
+        EXPECT_TRUE(Watch::waitUntil([&] { return size() != before; })) << round;
     }
-    kill(watch, SIGTERM);
-    int status = 0;
-    waitpid(watch, &status, 0);
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+    EXPECT_EQ(watch.end(), 0);
     EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
     EXPECT_EQ(run({"update", sample.store()}).exitCode, 0);
+}
+
+TEST(OsgTileStoreUpdate, aWatchCompactsWhereMoreThanThirtyPercentAreDead)
+{
+    const PhotographStore sample;
+    ASSERT_EQ(sample.build(sample.store()).exitCode, 0);
+    const auto deadShare = [&]
+    {
+        const auto info = run({"info", sample.store(), "--json"});
+        return json::parse(info.output)["deadShare"].get<double>();
+    };
+    for (int round = 0; round < 20 && deadShare() <= 0.3; ++round)
+    {
+        sample.write("1", 50 + round);
+        sample.write("2", 50 + round);
+        ASSERT_EQ(run({"update", sample.store()}).exitCode, 0);
+    }
+    ASSERT_GT(deadShare(), 0.3) << "only a watch compacts";
+    const Watch watch(sample.store());
+    sample.write("5", 99);
+    EXPECT_TRUE(Watch::waitUntil([&] { return deadShare() == 0.0; })) << deadShare();
+    EXPECT_EQ(watch.end(), 0);
+    EXPECT_EQ(run({"verify", sample.store()}).exitCode, 0);
 }
 
 } // namespace

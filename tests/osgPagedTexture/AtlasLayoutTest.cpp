@@ -59,16 +59,6 @@ bool keepDistance(const AtlasLayout& layout)
     return true;
 }
 
-double occupiedShare(const AtlasLayout& layout)
-{
-    double area = 0.0;
-    for (const AtlasPhoto& each : layout.photos)
-    {
-        area += double(each.width) * each.height;
-    }
-    return area / (double(layout.width) * double(layout.height));
-}
-
 std::vector<std::pair<std::int64_t, std::int64_t>> placesOf(const AtlasLayout& layout,
                                                             std::size_t count)
 {
@@ -124,7 +114,7 @@ TEST(AtlasLayout, anAtlasIsAboutSquareAndWellFilled)
          {std::pair(62, 0.85), std::pair(500, 0.88), std::pair(5000, 0.91)})
     {
         const AtlasLayout layout = packAtlas(randomPhotos(count, 7), settings);
-        EXPECT_GT(occupiedShare(layout), share) << count;
+        EXPECT_GT(layout.getOccupiedShare(), share) << count;
         EXPECT_LT(double(layout.width) / double(layout.height), 1.25) << count;
         EXPECT_GT(double(layout.width) / double(layout.height), 0.8) << count;
     }
@@ -219,7 +209,7 @@ TEST(AtlasLayout, addedPhotographsLeaveTheOthersWhereTheyAre)
     EXPECT_EQ(layout.photos[300].path, more[0].path);
     EXPECT_TRUE(keepDistance(layout));
     EXPECT_NO_THROW(checkAtlas(layout));
-    EXPECT_GT(occupiedShare(layout), 0.75);
+    EXPECT_GT(layout.getOccupiedShare(), 0.75);
 }
 
 TEST(AtlasLayout, aPhotographTakesThePlaceOfARemovedOneOfItsSize)

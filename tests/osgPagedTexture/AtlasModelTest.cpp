@@ -16,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -258,6 +259,40 @@ TEST(UsedPartsTest, partsHoldAllUsedPixelsAndLieOnBlocks)
     EXPECT_EQ(parts[2].y, 64);
     EXPECT_EQ(parts[2].width, 4);
     EXPECT_EQ(parts[2].height, 6);
+}
+
+TEST(UsedPartsTest, blocksHoldAllUsedPixelsAndNoOtherBlock)
+{
+    Pixels mask(200, 150, 1);
+    EXPECT_TRUE(findUsedBlocks(mask).empty());
+    for (int y = 0; y < mask.height; ++y) // a ring
+        for (int x = 0; x < mask.width; ++x)
+        {
+            const double radius = std::hypot(x - 100.0, y - 75.0);
+            mask.row(y)[x] = radius > 40.0 && radius < 70.0 ? 255 : 0;
+        }
+    const auto rects = findUsedBlocks(mask);
+    EXPECT_LT(rects.size(), 25u) << "rows that are alike are one";
+    const auto countIn = [&](const PixelRect& area)
+    {
+        int used = 0;
+        for (std::int64_t y = area.y; y < std::min<std::int64_t>(area.y + area.height, 150); ++y)
+            for (std::int64_t x = area.x; x < std::min<std::int64_t>(area.x + area.width, 200); ++x)
+                used += mask.row(149 - int(y))[x] != 0;
+        return used;
+    };
+    for (int top = 0; top < 150; top += 16)
+        for (int left = 0; left < 200; left += 16)
+        {
+            const auto holders =
+                std::count_if(rects.begin(), rects.end(),
+                              [&](const PixelRect& rect)
+                              {
+                                  return left >= rect.x && left < rect.x + rect.width &&
+                                         top >= rect.y && top < rect.y + rect.height;
+                              });
+            EXPECT_EQ(holders, countIn({left, top, 16, 16}) > 0 ? 1 : 0) << left << "," << top;
+        }
 }
 
 TEST(UsedPartsTest, partsWhoseBoxesOverlapAreOne)

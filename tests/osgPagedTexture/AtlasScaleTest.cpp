@@ -49,16 +49,6 @@ std::vector<AtlasPhoto> photosOf(std::size_t count, bool wild)
     return photos;
 }
 
-double occupiedShare(const AtlasLayout& layout)
-{
-    double area = 0.0;
-    for (const AtlasPhoto& each : layout.photos)
-    {
-        area += double(each.width) * each.height;
-    }
-    return area / (double(layout.width) * double(layout.height));
-}
-
 TEST(AtlasScale, manyPhotographsArePlaced)
 {
     const std::size_t count = manyPhotos();
@@ -71,12 +61,12 @@ TEST(AtlasScale, manyPhotographsArePlaced)
     const std::string hash = layout.getContentHash();
     const double reading = secondsOf([&] { layout = readAtlasLayout(folder.file("l.json")); });
     EXPECT_EQ(layout.getContentHash(), hash);
-    EXPECT_GT(occupiedShare(layout), 0.93); // beyond a million 0.98
+    EXPECT_GT(layout.getOccupiedShare(), 0.93); // beyond a million 0.98
     std::printf(
         "%zu photographs, %lld x %lld pixels, %.1f %% occupied: packed %.2f s, 1,000 added "
         "%.2f s, checked %.2f s, written %.2f s (%.0f MiB), read %.2f s; %.0f MiB of memory\n",
         count, static_cast<long long>(layout.width), static_cast<long long>(layout.height),
-        100.0 * occupiedShare(layout), packing, adding, checking, writing,
+        100.0 * layout.getOccupiedShare(), packing, adding, checking, writing,
         double(fs::file_size(folder.file("l.json"))) / (1 << 20), reading, support::residentMiB());
 }
 
@@ -87,7 +77,7 @@ TEST(AtlasScale, wildSizesArePlaced)
     const double packing = secondsOf([&] { layout = packAtlas(photosOf(count, true)); });
     const double checking = secondsOf([&] { checkAtlas(layout); });
     std::printf("wild sizes: %.1f %% occupied, packed %.2f s, checked %.2f s\n",
-                100.0 * occupiedShare(layout), packing, checking);
+                100.0 * layout.getOccupiedShare(), packing, checking);
     EXPECT_EQ(layout.photos.size(), count);
 }
 

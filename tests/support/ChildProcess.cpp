@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -83,7 +84,9 @@ ProcessResult ChildProcess::run() const
         if (result.timedOut)
             kill(-child, SIGKILL);
         int status = 0;
-        waitpid(child, &status, 0);
+        rusage usage = {};
+        wait4(child, &status, 0, &usage);
+        result.peakMiB = double(usage.ru_maxrss) / 1024.0;
         result.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     }
     close(output[0]);

@@ -15,6 +15,7 @@ struct ProcessResult
     bool timedOut = false;
     std::string output; ///< Its standard output.
     std::string errors; ///< Its standard error.
+    double peakMiB = 0; ///< Of memory that was not swapped out.
 };
 
 /// A program to run, found on PATH, with this process's environment changed by `environment`.
