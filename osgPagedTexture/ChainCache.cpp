@@ -228,18 +228,21 @@ bool ChainCache::write(const ContentHash& key, const MipChain& chain)
         {
             return false;
         }
-        makeRoom(bytes.size());
     }
+    makeRoom(bytes.size());
     const std::string path = getPath(key);
     if (!writeFile(path, bytes))
     {
         return false;
     }
+    {
+        const std::lock_guard<std::mutex> lock(_roomMutex);
+        _bytes += bytes.size();
+        _bytesSinceScan += bytes.size();
+    }
     const std::lock_guard<std::mutex> lock(_mutex);
     ++_statistics.written;
     _statistics.bytesWritten += bytes.size();
-    _bytes += bytes.size();
-    _bytesSinceScan += bytes.size();
     return true;
 }
 
@@ -280,11 +283,19 @@ bool ChainCache::writeFile(const std::string& path, const std::string& bytes)
 
 void ChainCache::makeRoom(std::uint64_t newBytes)
 {
+    const std::lock_guard<std::mutex> lock(_roomMutex);
     // Other processes write too: look again now and then.
     if (_scanned && _bytes + newBytes <= _limitBytes && _bytesSinceScan <= _limitBytes / 8)
     {
         return;
     }
+    const std::uint64_t evicted = removeOldest(newBytes);
+    const std::lock_guard<std::mutex> statistics(_mutex);
+    _statistics.evicted += evicted;
+}
+
+std::uint64_t ChainCache::removeOldest(std::uint64_t newBytes)
+{
     std::vector<Entry> entries = scan(_folder);
     _scanned = true;
     _bytesSinceScan = 0;
@@ -295,12 +306,13 @@ void ChainCache::makeRoom(std::uint64_t newBytes)
     }
     if (_bytes + newBytes <= _limitBytes)
     {
-        return;
+        return 0;
     }
     std::sort(entries.begin(), entries.end(),
               [](const Entry& a, const Entry& b) { return a.used < b.used; });
     // A tenth more than needed, so that the next writes need no scan.
     const std::uint64_t goal = _limitBytes - _limitBytes / 10;
+    std::uint64_t evicted = 0;
     for (const Entry& entry : entries)
     {
         if (_bytes + newBytes <= goal)
@@ -308,9 +320,10 @@ void ChainCache::makeRoom(std::uint64_t newBytes)
             break;
         }
         std::error_code error;
-        _statistics.evicted += fs::remove(entry.path, error);
+        evicted += fs::remove(entry.path, error);
         _bytes -= error ? 0 : entry.bytes;
     }
+    return evicted;
 }
 
 void ChainCache::fail(const std::string& action, const std::string& cause)

@@ -65,18 +65,21 @@ private:
     void remove(const ContentHash& key);
     bool writeFile(const std::string& path, const std::string& bytes);
     void makeRoom(std::uint64_t newBytes);
+    std::uint64_t removeOldest(std::uint64_t newBytes);
     void fail(const std::string& action, const std::string& cause);
 
     const std::string _folder;
     const std::uint64_t _limitBytes;
-    mutable std::mutex _mutex; ///< Guards what follows, held for no input or output but a scan.
+    mutable std::mutex _mutex; ///< Guards what follows; never held for the disk: frames take it.
     Statistics _statistics;
     std::vector<std::string> _messages;
     bool _failed = false; ///< A failure was told.
+    std::chrono::steady_clock::time_point _writeAgain{}; ///< Not before, after a failure.
+
+    std::mutex _roomMutex; ///< Guards what follows; whoever writes may wait for what is removed.
     bool _scanned = false;
     std::uint64_t _bytes = 0;          ///< In the folder, as far as this process knows.
     std::uint64_t _bytesSinceScan = 0; ///< Written by this process.
-    std::chrono::steady_clock::time_point _writeAgain{}; ///< Not before, after a failure.
 };
 
 /// The key of a chain: what its source holds and how it is made.

@@ -11,9 +11,15 @@ CoreTeam::CoreTeam(unsigned int size)
 {
     const unsigned int members =
         size > 0 ? size : std::max(1u, std::thread::hardware_concurrency());
-    for (unsigned int member = 1; member < members; ++member)
+    try
     {
-        _threads.emplace_back([this, member]() { help(member); });
+        for (unsigned int member = 1; member < members; ++member)
+        {
+            _threads.emplace_back([this, member]() { help(member); });
+        }
+    }
+    catch (const std::exception&) // of memory or of threads: those that are there do the work
+    {
     }
 }
 

@@ -21,7 +21,7 @@ public:
     /// `member` is 0 to getSize() - 1: what belongs to it no other thread uses meanwhile.
     using Work = std::function<void(std::size_t part, unsigned int member)>;
 
-    /// 0: as many as the machine has cores.
+    /// 0: as many as the machine has cores; fewer where the system has no more threads to give.
     explicit CoreTeam(unsigned int size = 0);
     ~CoreTeam();
     CoreTeam(const CoreTeam&) = delete;

@@ -2,6 +2,7 @@
 #include <osgPagedTexture/WorkerPool.h>
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace osgPagedTexture
@@ -66,13 +67,30 @@ WorkerPool::JobId WorkerPool::submit(JobPriority priority, Job job, double delay
             _ready.insert(rankOf(waiting, id));
         }
         _waiting.emplace(id, std::move(waiting));
-        if (_threads.size() < _threadCount)
-        {
-            _threads.emplace_back([this] { run(); });
-        }
+        addThread();
     }
     _changed.notify_one();
     return id;
+}
+
+/// Where the system has no thread to give, those that are there do the work.
+void WorkerPool::addThread()
+{
+    if (_threads.size() == _threadCount)
+    {
+        return;
+    }
+    try
+    {
+        _threads.emplace_back([this] { run(); });
+    }
+    catch (const std::exception&) // of memory or of threads
+    {
+        if (_threads.empty())
+        {
+            throw;
+        }
+    }
 }
 
 void WorkerPool::setPriority(JobId id, JobPriority priority)

@@ -45,7 +45,8 @@ public:
     WorkerPool& operator=(const WorkerPool&) = delete;
 
     /// Adds a job that no thread takes before `delaySeconds` have passed. Ids start at 1 and are
-    /// never used twice.
+    /// never used twice. Throws std::system_error or std::bad_alloc where not even one thread can
+    /// be made.
     JobId submit(JobPriority priority, Job job, double delaySeconds = 0.0);
 
     /// Changes the priority of a job that waits; else does nothing.
@@ -73,6 +74,7 @@ private:
     using Due = std::pair<Clock::time_point, JobId>;
 
     static Rank rankOf(const Waiting& waiting, JobId id);
+    void addThread();
     void run();
     void moveDueJobs();
     void waitForJob(std::unique_lock<std::mutex>& lock);

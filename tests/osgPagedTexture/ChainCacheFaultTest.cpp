@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a cache survives: folders that cannot be written, full disks, processes that die.
+// What a cache survives: folders that cannot be written, full and slow disks, processes that die.
 #include "ChainSamples.h"
 
 #include <osgPagedTexture/ChainCache.h>
@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -16,12 +18,38 @@
 #include <random>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 using namespace osgPagedTexture;
 namespace fs = std::filesystem;
+
+namespace
+{
+
+/// A disk on which removing a file takes until somebody has looked at the cache, or ten seconds.
+std::atomic<bool> slowDisk{false}, removing{false}, looked{false}, lookedInTime{false};
+
+} // namespace
+
+// It takes the place of the C library's for the kit, too.
+extern "C" __attribute__((visibility("default"))) int remove(const char* path) noexcept
+{
+    if (slowDisk)
+    {
+        removing = true;
+        for (int wait = 0; wait < 1000 && !looked; ++wait)
+        {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        lookedInTime = looked.load();
+    }
+    const int done = static_cast<int>(syscall(SYS_unlinkat, AT_FDCWD, path, 0));
+    return done == 0 || errno != EISDIR ? done : static_cast<int>(syscall(SYS_rmdir, path));
+}
 
 namespace
 {
@@ -128,6 +156,27 @@ TEST_F(ChainCacheFaultTest, AFullDiskIsNamedOnceAndLeavesNoHalfFile)
                   }),
               0);
     EXPECT_EQ(filesIn(path), 1u);
+}
+
+TEST_F(ChainCacheFaultTest, NobodyWaitsForADiskThatRemovesButWhoWrites)
+{
+    ChainCache cache(path, 100000);
+    ASSERT_TRUE(cache.write(keyNumber(2), chainNumber(2)));
+    slowDisk = true;
+    std::thread writer([&] { cache.write(keyNumber(3), chainNumber(3)); });
+    while (!removing)
+    {
+        std::this_thread::yield();
+    }
+    // What frames ask for.
+    EXPECT_EQ(cache.getStatistics().written, 1u);
+    EXPECT_TRUE(cache.takeMessages().empty());
+    looked = true;
+    writer.join();
+    slowDisk = false;
+    EXPECT_TRUE(lookedInTime);
+    EXPECT_GT(cache.getStatistics().evicted, 0u);
+    EXPECT_EQ(cache.getStatistics().written, 2u);
 }
 
 TEST_F(ChainCacheFaultTest, AFileInThePlaceOfTheFolderIsNamed)
