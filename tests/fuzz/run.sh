@@ -10,7 +10,7 @@ if [ ! -f build-fuzz/build.ninja ]; then
     cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
         -DOSGKITS_BUILD_FUZZERS=ON -DOSGKITS_BUILD_TESTS=OFF -DOSGKITS_BUILD_EXAMPLES=OFF >/dev/null
 fi
-cmake --build build-fuzz --target {GlslSource,Merger,GlslPair,MixFile,Jpeg,ChainFile,Font}{Fuzz,Corpus}
+cmake --build build-fuzz --target {GlslSource,Merger,GlslPair,MixFile,Jpeg,ChainFile,AtlasLayout,MapLabels,Font}{Fuzz,Corpus}
 
 # run <name> [flag]: <name>Fuzz on what <name>Corpus writes.
 run() {
@@ -36,4 +36,6 @@ run GlslPair -dict=tests/fuzz/glsl.dict
 run MixFile
 run Jpeg
 run ChainFile
+run AtlasLayout
+run MapLabels
 run Font -max_len=65536 -timeout=10
