@@ -75,6 +75,7 @@ public:
 
     void schedule(RequestId id, Ticket& ticket, double delaySeconds);
     void work(RequestId id, const std::atomic<bool>& cancelled);
+    void load(RequestId id, const std::atomic<bool>& cancelled);
     void finish(RequestId id, ChainSource::Result loaded);
     void name(const std::string& file, const std::string& error);
     void fail(RequestId id, const std::string& error, bool retried,
@@ -105,6 +106,18 @@ void ChainLoader::State::schedule(RequestId id, Ticket& ticket, double delaySeco
 }
 
 void ChainLoader::State::work(RequestId id, const std::atomic<bool>& cancelled)
+{
+    try
+    {
+        load(id, cancelled);
+    }
+    catch (const std::bad_alloc&)
+    {
+        fail(id, "there is not enough memory for a picture; store it smaller", false);
+    }
+}
+
+void ChainLoader::State::load(RequestId id, const std::atomic<bool>& cancelled)
 {
     std::unique_lock<std::mutex> lock(mutex);
     const auto found = tickets.find(id);
@@ -231,9 +244,18 @@ RequestId ChainLoader::request(const ChainRequest& request)
         return place->second;
     }
     const RequestId id = ++state.lastId;
-    Ticket& ticket = state.tickets[id];
-    ticket.request = request;
-    state.schedule(id, ticket, 0.0);
+    try
+    {
+        Ticket& ticket = state.tickets[id];
+        ticket.request = request;
+        state.schedule(id, ticket, 0.0);
+    }
+    catch (...) // nobody would ever end it
+    {
+        state.tickets.erase(id);
+        state.ids.erase(place);
+        throw;
+    }
     return id;
 }
 
@@ -275,6 +297,7 @@ std::vector<ChainResult> ChainLoader::poll(std::size_t count)
     State& state = *_state;
     std::vector<ChainResult> results;
     const std::lock_guard<std::mutex> lock(state.mutex);
+    results.reserve(std::min(count, state.ready.size()));
     while (!state.ready.empty() && results.size() < count)
     {
         ChainResult& result = state.ready.front().result;

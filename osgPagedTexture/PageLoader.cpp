@@ -82,9 +82,23 @@ void PageLoader::request(const PageRequest& request)
         _pool.setPriority(known->second, priority);
         return;
     }
+    if (_results.capacity() <= _jobs.size()) // a worker finds room, whatever memory is left
+    {
+        _results.reserve(2 * _jobs.size() + 16);
+    }
+    _jobs[request.page] = 0;
+    try
+    {
+        _jobs[request.page] =
+            _pool.submit(priority, [this, request](const std::atomic<bool>& cancelled)
+                         { run(request, cancelled); });
+    }
+    catch (...) // nobody would ever end it
+    {
+        _jobs.erase(request.page);
+        throw;
+    }
     ++_statistics.requests;
-    _jobs[request.page] = _pool.submit(priority, [this, request](const std::atomic<bool>& cancelled)
-                                       { run(request, cancelled); });
 }
 
 void PageLoader::run(const PageRequest& request, const std::atomic<bool>& cancelled)

@@ -5,6 +5,7 @@
 #include <osgPagedTexture/TileWalk.h>
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 namespace osgPagedTexture
@@ -275,6 +276,23 @@ TileData TileBuilder::encode(const std::uint8_t* const* rows, int width, int hei
 {
     return makeTile({rows, width, height, _content->settings.channels},
                     kept ? *_content->keptEncoder : *_content->encoder);
+}
+
+void addPending(AtlasLayout& layout, const std::vector<PhotoFailure>& failures)
+{
+    for (const PhotoFailure& failure : failures)
+    {
+        const PixelRect covered = layout.getCovered(layout.photos[failure.photo]);
+        const auto isSame = [&](const PixelRect& other)
+        {
+            return std::tie(other.x, other.y, other.width, other.height) ==
+                   std::tie(covered.x, covered.y, covered.width, covered.height);
+        };
+        if (std::none_of(layout.pending.begin(), layout.pending.end(), isSame))
+        {
+            layout.pending.push_back(covered);
+        }
+    }
 }
 
 } // namespace osgPagedTexture

@@ -50,6 +50,11 @@ struct TileBuildReport
     std::vector<PhotoFailure> failures; ///< Their pixels are the background from there on.
 };
 
+/// Photographs that could not be read are left to the next update, which tries them again: what
+/// they cover becomes pending beside what is. `failures`: of a build from this layout.
+OSGPAGEDTEXTURE_EXPORT void addPending(AtlasLayout& layout,
+                                       const std::vector<PhotoFailure>& failures);
+
 /// Unencoded pixels of a part of a level, the top row first.
 struct LevelPixels
 {

@@ -151,10 +151,10 @@ void TileRefresh::refreshFine(const PixelRect& part, TileUpdateReport& report)
         coarse);
     for (const PhotoFailure& failure : built.failures)
     {
-        if (std::find(report.failures.begin(), report.failures.end(), failure.cause) ==
-            report.failures.end())
+        const auto isSame = [&](const PhotoFailure& known) { return known.photo == failure.photo; };
+        if (std::none_of(_unread.begin(), _unread.end(), isSame))
         {
-            report.failures.push_back(failure.cause);
+            _unread.push_back(failure);
         }
     }
     if (_kept && !coarse.bytes.empty())

@@ -25,6 +25,8 @@ public:
     double getShare() const;
 
     void run(TileUpdateReport& report);
+    /// Photographs that run() could not read.
+    const std::vector<PhotoFailure>& getUnread() const { return _unread; }
 
 private:
     using Key = std::tuple<int, std::int64_t, std::int64_t>; ///< Level, y, x.
@@ -45,6 +47,7 @@ private:
     std::unique_ptr<KeptLevels> _kept;
     std::unique_ptr<TilePackWriter> _writer;
     std::set<Key> _done;
+    std::vector<PhotoFailure> _unread;
 };
 
 } // namespace osgPagedTexture

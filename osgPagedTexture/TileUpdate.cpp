@@ -53,12 +53,17 @@ public:
         _layout.pendingSince = storeHash;
         writeAtlasLayout(_layoutPath, _layout);
         _origin.layoutHash = _layout.getContentHash();
-        makeTiles();
+        const std::vector<PhotoFailure> unread = makeTiles();
         if (_settings.afterwards)
         {
             _settings.afterwards(_layout, _folder);
         }
+        for (const PhotoFailure& failure : unread)
+        {
+            _report.failures.push_back(failure.cause);
+        }
         _layout.pending.clear();
+        addPending(_layout, unread);
         _layout.pendingSince.clear();
         writeAtlasLayout(_layoutPath, _layout);
         return std::move(_report);
@@ -113,7 +118,8 @@ private:
         return !changes.empty();
     }
 
-    void makeTiles()
+    /// Returns the photographs that could not be read.
+    std::vector<PhotoFailure> makeTiles()
     {
         TileRefresh refresh(_path, _layout, _origin, _settings.pack);
         if (_report.rebuilt.empty())
@@ -127,15 +133,12 @@ private:
         if (_report.rebuilt.empty())
         {
             refresh.run(_report);
-            return;
+            return refresh.getUnread();
         }
         const TileBuildReport built = buildTileStore(_path, _layout, _origin, _settings.pack);
         _report.touchedTiles = built.encodedTiles + built.uniformTiles;
         _report.changedTiles = _report.touchedTiles;
-        for (const PhotoFailure& failure : built.failures)
-        {
-            _report.failures.push_back(failure.cause);
-        }
+        return built.failures;
     }
 
     const std::string _path;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
+#include <new>
 #include <utility>
 
 namespace osgPagedTexture
@@ -24,12 +26,12 @@ void WorkerPool::stop()
     {
         const std::lock_guard<std::mutex> lock(_mutex);
         _stopping = true;
-        _waiting.clear();
         _ready.clear();
         _delayed.clear();
-        for (auto& [id, cancelled] : _running)
+        for (auto at = _jobs.begin(); at != _jobs.end();)
         {
-            *cancelled = true;
+            at->second.cancelled = true;
+            at = at->second.running ? std::next(at) : _jobs.erase(at);
         }
         threads.swap(_threads);
     }
@@ -40,9 +42,9 @@ void WorkerPool::stop()
     }
 }
 
-WorkerPool::Rank WorkerPool::rankOf(const Waiting& waiting, JobId id)
+WorkerPool::Rank WorkerPool::rankOf(const Entry& entry, JobId id)
 {
-    return {-waiting.priority.rank, -waiting.priority.value, id};
+    return {-entry.priority.rank, -entry.priority.value, id};
 }
 
 WorkerPool::JobId WorkerPool::submit(JobPriority priority, Job job, double delaySeconds)
@@ -55,22 +57,37 @@ WorkerPool::JobId WorkerPool::submit(JobPriority priority, Job job, double delay
         {
             return id;
         }
-        Waiting waiting{priority, std::move(job), {}, delaySeconds > 0.0};
-        if (waiting.delayed)
+        Entry& entry = _jobs[id];
+        entry.priority = priority;
+        entry.job = std::move(job);
+        try
         {
-            waiting.due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                             std::chrono::duration<double>(delaySeconds));
-            _delayed.insert({waiting.due, id});
+            enter(id, entry, delaySeconds);
+            addThread();
         }
-        else
+        catch (...) // nobody would ever take it
         {
-            _ready.insert(rankOf(waiting, id));
+            _ready.erase(rankOf(entry, id));
+            _delayed.erase({entry.due, id});
+            _jobs.erase(id);
+            throw;
         }
-        _waiting.emplace(id, std::move(waiting));
-        addThread();
     }
     _changed.notify_one();
     return id;
+}
+
+void WorkerPool::enter(JobId id, Entry& entry, double delaySeconds)
+{
+    entry.delayed = delaySeconds > 0.0;
+    if (!entry.delayed)
+    {
+        _ready.insert(rankOf(entry, id));
+        return;
+    }
+    entry.due = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(delaySeconds));
+    _delayed.insert({entry.due, id});
 }
 
 /// Where the system has no thread to give, those that are there do the work.
@@ -96,16 +113,17 @@ void WorkerPool::addThread()
 void WorkerPool::setPriority(JobId id, JobPriority priority)
 {
     const std::lock_guard<std::mutex> lock(_mutex);
-    const auto found = _waiting.find(id);
-    if (found == _waiting.end())
+    const auto found = _jobs.find(id);
+    if (found == _jobs.end() || found->second.running)
     {
         return;
     }
-    const bool ready = _ready.erase(rankOf(found->second, id)) > 0;
+    auto place = _ready.extract(rankOf(found->second, id));
     found->second.priority = priority;
-    if (ready)
+    if (place)
     {
-        _ready.insert(rankOf(found->second, id));
+        place.value() = rankOf(found->second, id);
+        _ready.insert(std::move(place));
     }
 }
 
@@ -113,25 +131,27 @@ bool WorkerPool::cancel(JobId id)
 {
     Job dropped; // destroyed after the lock: what it holds may call back
     const std::lock_guard<std::mutex> lock(_mutex);
-    if (const auto found = _waiting.find(id); found != _waiting.end())
+    const auto found = _jobs.find(id);
+    if (found == _jobs.end())
     {
-        _ready.erase(rankOf(found->second, id));
-        _delayed.erase({found->second.due, id});
-        dropped = std::move(found->second.job);
-        _waiting.erase(found);
-        return true;
+        return false;
     }
-    if (const auto found = _running.find(id); found != _running.end())
+    if (found->second.running)
     {
-        *found->second = true;
+        found->second.cancelled = true;
+        return false;
     }
-    return false;
+    _ready.erase(rankOf(found->second, id));
+    _delayed.erase({found->second.due, id});
+    dropped = std::move(found->second.job);
+    _jobs.erase(found);
+    return true;
 }
 
 std::size_t WorkerPool::getWaitingCount() const
 {
     const std::lock_guard<std::mutex> lock(_mutex);
-    return _waiting.size();
+    return _jobs.size() - _running;
 }
 
 std::size_t WorkerPool::getThreadCount() const
@@ -140,14 +160,21 @@ std::size_t WorkerPool::getThreadCount() const
     return _threads.size();
 }
 
+/// Those for which there is no memory are due still.
 void WorkerPool::moveDueJobs()
 {
     const auto now = Clock::now();
-    while (!_delayed.empty() && _delayed.begin()->first <= now)
+    try
     {
-        const JobId id = _delayed.begin()->second;
-        _delayed.erase(_delayed.begin());
-        _ready.insert(rankOf(_waiting.at(id), id));
+        while (!_delayed.empty() && _delayed.begin()->first <= now)
+        {
+            const JobId id = _delayed.begin()->second;
+            _ready.insert(rankOf(_jobs.at(id), id));
+            _delayed.erase(_delayed.begin());
+        }
+    }
+    catch (const std::bad_alloc&)
+    {
     }
 }
 
@@ -174,16 +201,16 @@ void WorkerPool::run()
     {
         const JobId id = std::get<JobId>(*_ready.begin());
         _ready.erase(_ready.begin());
-        const auto found = _waiting.find(id);
-        Job job = std::move(found->second.job);
-        _waiting.erase(found);
-        const auto cancelled = std::make_shared<std::atomic<bool>>(false);
-        _running[id] = cancelled;
+        Entry& entry = _jobs.at(id);
+        Job job = std::move(entry.job);
+        entry.running = true;
+        ++_running;
         lock.unlock();
-        job(*cancelled);
+        job(entry.cancelled);
         job = nullptr; // what it holds goes without the lock
         lock.lock();
-        _running.erase(id);
+        --_running;
+        _jobs.erase(id);
     }
 }
 

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -63,17 +62,21 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    struct Waiting
+    /// A job that waits or runs. Threads make nothing anew: there may be no memory for it.
+    struct Entry
     {
         JobPriority priority;
-        Job job;
+        Job job;               ///< Empty while it runs.
         Clock::time_point due; ///< The past for jobs without delay.
         bool delayed = false;
+        bool running = false;
+        std::atomic<bool> cancelled{false};
     };
     using Rank = std::tuple<int, double, JobId>; ///< Smallest first.
     using Due = std::pair<Clock::time_point, JobId>;
 
-    static Rank rankOf(const Waiting& waiting, JobId id);
+    static Rank rankOf(const Entry& entry, JobId id);
+    void enter(JobId id, Entry& entry, double delaySeconds);
     void addThread();
     void run();
     void moveDueJobs();
@@ -82,10 +85,10 @@ private:
     const std::size_t _threadCount;
     mutable std::mutex _mutex;
     std::condition_variable _changed;
-    std::map<JobId, Waiting> _waiting;
+    std::map<JobId, Entry> _jobs;
+    std::size_t _running = 0; ///< Of _jobs.
     std::set<Rank> _ready;
     std::set<Due> _delayed;
-    std::map<JobId, std::shared_ptr<std::atomic<bool>>> _running;
     std::vector<std::thread> _threads;
     JobId _lastId = 0;
     bool _stopping = false;

@@ -327,6 +327,12 @@ int run(const Arguments& arguments)
     const Stopwatch buildTime;
     buildStore(build, outcome);
     outcome.buildSeconds = buildTime.seconds();
+    if (!outcome.layout.pending.empty() || !outcome.report.failures.empty())
+    {
+        outcome.layout.pending.clear();
+        addPending(outcome.layout, outcome.report.failures);
+        writeAtlasLayout(build.layout, outcome.layout);
+    }
 
     const Json json = toJson(build, outcome);
     if (arguments.isJson())

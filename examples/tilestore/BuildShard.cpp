@@ -67,6 +67,13 @@ int runShard(BuildConfig build, const Arguments& arguments)
         buildTileShard(build.store, shard, layout, originOf(build, layout), options);
     for (const PhotoFailure& failure : report.failures)
         failures.push_back(failure.cause);
+    if (!report.failures.empty())
+    {
+        const AtlasLock lock(build.layout, 60.0); // of other shards
+        AtlasLayout shared = readAtlasLayout(build.layout);
+        addPending(shared, report.failures);
+        writeAtlasLayout(build.layout, shared);
+    }
     const std::string path = shard.path(build.store);
     if (arguments.isJson())
         print({{"store", build.store},

@@ -57,6 +57,32 @@ TEST_P(TileUpdate, onePhotographHasChanged)
     EXPECT_TRUE(update(sample).isNothing());
 }
 
+TEST_P(TileUpdate, whatCannotBeReadIsTriedAgain)
+{
+    const UpdateSample sample(12, 3, GetParam());
+    sample.build();
+    const AtlasPhoto photo = sample.layout().photos[5];
+    const std::string name = fs::path(photo.path).filename().string();
+    sample.writePhoto(name, photo.width, photo.height, 999);
+    fs::resize_file(sample.photo(name), fs::file_size(sample.photo(name)) / 2);
+    for (int time = 0; time < 2; ++time)
+    {
+        const TileUpdateReport report = update(sample);
+        ASSERT_EQ(report.failures.size(), 1u) << time;
+        EXPECT_NE(report.failures.front().find(name), std::string::npos);
+    }
+    // The others are updated meanwhile.
+    const AtlasPhoto other = sample.layout().photos[9];
+    sample.writePhoto(fs::path(other.path).filename().string(), other.width, other.height, 998);
+    EXPECT_EQ(update(sample).failures.size(), 1u);
+    EXPECT_TRUE(sample.equalsFullBuild());
+
+    sample.writePhoto(name, photo.width, photo.height, 999);
+    EXPECT_TRUE(update(sample).failures.empty());
+    EXPECT_TRUE(sample.equalsFullBuild());
+    EXPECT_TRUE(update(sample).isNothing());
+}
+
 TEST_P(TileUpdate, everySinglePhotographCanChange)
 {
     const UpdateSample sample(12, 3, GetParam());

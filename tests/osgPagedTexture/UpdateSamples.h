@@ -87,14 +87,14 @@ public:
     }
 
     /// A full build from the layout as it is now.
-    void buildAt(const std::string& path) const
+    osgPagedTexture::TileBuildReport buildAt(const std::string& path) const
     {
         osgPagedTexture::TileStoreOrigin from = origin();
         const osgPagedTexture::AtlasLayout now = layout();
         from.layoutHash = now.getContentHash();
         osgPagedTexture::TilePackWriter::Options options;
         options.durable = false; // many are built
-        osgPagedTexture::buildTileStore(path, now, from, options);
+        return osgPagedTexture::buildTileStore(path, now, from, options);
     }
 
     /// Whether the store, compacted, has the bytes of a full build, and so have its coarse pixels.
