@@ -4,6 +4,7 @@
 #include <csv.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace osgLabels
 {
@@ -92,6 +93,15 @@ std::string csvColumnRemedy(const std::vector<std::string>& fields)
 {
     const bool isOther = fields.size() == 1 && fields[0].find_first_of(";\t") != std::string::npos;
     return isOther ? "; separate them by a comma" : "; quote a text that has a comma: \"a,b\"";
+}
+
+std::string quotedCsvField(const std::string& field)
+{
+    constexpr std::size_t mostBytes = 60;
+    std::string shown = field.substr(0, mostBytes);
+    std::replace_if(
+        shown.begin(), shown.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+    return "'" + shown + (field.size() > mostBytes ? "...'" : "'");
 }
 
 } // namespace osgLabels

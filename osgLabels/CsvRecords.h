@@ -27,4 +27,8 @@ void readCsv(const std::string& content, const std::function<bool(CsvRecord& rec
 /// begins with "; ".
 std::string csvColumnRemedy(const std::vector<std::string>& fields);
 
+/// A field as a message of one line quotes it: 'text', its line ends as spaces, its end left out
+/// where it is long.
+std::string quotedCsvField(const std::string& field);
+
 } // namespace osgLabels

@@ -57,7 +57,7 @@ std::string readNumber(const std::string& column, const std::string& field, doub
     const char* first = text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-');
     const char* const last = text.data() + text.size();
     const auto [end, failure] = std::from_chars(first, last, value);
-    const std::string what = column + " is '" + text + "'";
+    const std::string what = column + " is " + quotedCsvField(text);
     if (failure == std::errc::result_out_of_range && end == last)
         return what + ", beyond what a double holds; scale it";
     if (failure != std::errc() || end != last)

@@ -122,6 +122,10 @@ TEST(MapLabelFileTest, wrongLinesAreLeftOutEachWithFileLineAndCause)
     EXPECT_EQ(warningOf("1,2,3,\"a\"b\""),
               "city.csv:1: a quote inside of a field; double it, and quote the field: \"say "
               "\"\"so\"\"\"");
+    EXPECT_EQ(warningOf("1,\"two\nlines\",3,a"),
+              "city.csv:1: y is 'two lines', which is no number");
+    EXPECT_EQ(warningOf("1," + std::string(10000, 'a') + ",3,a"),
+              "city.csv:1: y is '" + std::string(60, 'a') + "...', which is no number");
     EXPECT_EQ(warningOf("lon,lat,height,name"), "city.csv:1: x is 'lon', which is no number");
 }
 
