@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/KeyPoints.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -81,7 +83,10 @@ std::shared_ptr<const KeyCells> KeyPoints::findCells(bool waits) const
     if (!future.valid())
         future = std::async(std::launch::async,
                             [segments = _tree.getSegments(), isLeft = &_making->isLeft]
-                            { return std::make_shared<const KeyCells>(segments, isLeft); });
+                            {
+                                useAllCores();
+                                return std::make_shared<const KeyCells>(segments, isLeft);
+                            });
     if (waits || future.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
         _making->cells = future.get();
     return _making->cells;

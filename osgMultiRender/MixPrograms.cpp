@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixPrograms.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgMultiRender/MixTrial.h>
 #include <osgMultiRender/ProgramWrap.h>
 
@@ -314,6 +316,7 @@ void MixPrograms::start(const MixSet& set, const std::shared_ptr<const MixSnapsh
                std::async(std::launch::async,
                           [this, set, snapshot, shares, limits = *_limits]
                           {
+                              useAllCores();
                               Merged merged = mergeSet(set, *snapshot, limits, shares);
                               if (merged.ok)
                                   readTextures(set, merged, *snapshot, _textures);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgMultiRender/MixWatch.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgMultiRender/ImportFile.h>
 
 namespace osgMultiRender
@@ -11,7 +13,12 @@ MixWatch::MixWatch(std::function<Files()> filesOf, std::function<void(const File
     : _filesOf(std::move(filesOf)), _changed(std::move(changed))
 {
     look(); // as they are now
-    _thread = std::thread([this, period] { run(period); });
+    _thread = std::thread(
+        [this, period]
+        {
+            useAllCores();
+            run(period);
+        });
 }
 
 MixWatch::~MixWatch()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/CoreTeam.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -15,7 +17,12 @@ CoreTeam::CoreTeam(unsigned int size)
     {
         for (unsigned int member = 1; member < members; ++member)
         {
-            _threads.emplace_back([this, member]() { help(member); });
+            _threads.emplace_back(
+                [this, member]()
+                {
+                    osgMultiRender::useAllCores();
+                    help(member);
+                });
         }
     }
     catch (const std::exception&) // of memory or of threads: those that are there do the work

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/FileWatch.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgPagedTexture/ContentHash.h>
 
 #include <chrono>
@@ -75,7 +77,12 @@ void FileWatch::add(const std::string& file)
         watched.last = watched.known;
     }
     if (!_thread.joinable())
-        _thread = std::thread([this] { run(); });
+        _thread = std::thread(
+            [this]
+            {
+                osgMultiRender::useAllCores();
+                run();
+            });
 }
 
 void FileWatch::remove(const std::string& file)

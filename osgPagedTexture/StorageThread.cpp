@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/StorageThread.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgPagedTexture/ThreadClock.h>
 
 #include <algorithm>
@@ -11,7 +13,12 @@ namespace osgPagedTexture
 
 StorageThread::StorageThread(std::unique_ptr<SharedContext> context,
                              osg::ref_ptr<osg::GLExtensions> gl)
-    : _context(std::move(context)), _gl(std::move(gl)), _thread([this] { work(); })
+    : _context(std::move(context)), _gl(std::move(gl)), _thread(
+                                                            [this]
+                                                            {
+                                                                osgMultiRender::useAllCores();
+                                                                work();
+                                                            })
 {
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/StoreWatch.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgPagedTexture/TileFolders.h>
 #include <osgPagedTexture/TilePack.h>
 
@@ -130,7 +132,12 @@ void StoreWatch::start()
     const std::lock_guard<std::mutex> lock(_mutex);
     if (!_thread.joinable())
     {
-        _thread = std::thread([this] { run(); });
+        _thread = std::thread(
+            [this]
+            {
+                osgMultiRender::useAllCores();
+                run();
+            });
     }
 }
 

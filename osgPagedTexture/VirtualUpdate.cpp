@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/VirtualUpdate.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <osgPagedTexture/TileUpdate.h>
 
 #include <osg/Notify>
@@ -76,7 +78,12 @@ void VirtualUpdate::start(const std::vector<std::string>& stores,
         if (!_due.empty() && !_isRunning)
         {
             _isRunning = true;
-            _thread = std::async(std::launch::async, [this, afterwards] { run(afterwards); });
+            _thread = std::async(std::launch::async,
+                                 [this, afterwards]
+                                 {
+                                     osgMultiRender::useAllCores();
+                                     run(afterwards);
+                                 });
         }
     }
     for (const std::string& store : others)

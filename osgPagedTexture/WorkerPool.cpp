@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgPagedTexture/WorkerPool.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <algorithm>
 #include <exception>
 #include <iterator>
@@ -99,7 +101,12 @@ void WorkerPool::addThread()
     }
     try
     {
-        _threads.emplace_back([this] { run(); });
+        _threads.emplace_back(
+            [this]
+            {
+                osgMultiRender::useAllCores();
+                run();
+            });
     }
     catch (const std::exception&) // of memory or of threads
     {

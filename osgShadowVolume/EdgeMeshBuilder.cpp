@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/EdgeMeshBuilder.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -97,7 +99,12 @@ template <class Iterator, class Less> void sortLarge(Iterator begin, Iterator en
         return;
     }
     const Iterator middle = begin + (end - begin) / 2;
-    auto half = std::async(std::launch::async, [=] { std::sort(begin, middle, less); });
+    auto half = std::async(std::launch::async,
+                           [=]
+                           {
+                               osgMultiRender::useAllCores();
+                               std::sort(begin, middle, less);
+                           });
     std::sort(middle, end, less);
     half.wait();
     std::inplace_merge(begin, middle, end, less);
@@ -111,7 +118,12 @@ template <class Work> void inHalves(Index count, std::size_t cost, const Work& w
         work(Index(0), count);
         return;
     }
-    auto half = std::async(std::launch::async, [&] { work(Index(0), count / 2); });
+    auto half = std::async(std::launch::async,
+                           [&]
+                           {
+                               osgMultiRender::useAllCores();
+                               work(Index(0), count / 2);
+                           });
     work(count / 2, count);
     half.wait();
 }

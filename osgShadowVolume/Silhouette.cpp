@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <osgShadowVolume/Silhouette.h>
 
+#include <osgMultiRender/AllCores.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -174,7 +176,12 @@ Silhouette silhouetteOf(const EdgeMesh& mesh, const MeshLight& light, unsigned i
     };
     std::vector<std::future<std::vector<Part>>> others;
     for (std::size_t number = 1; number < parts; ++number)
-        others.push_back(std::async(std::launch::async, findAll, number));
+        others.push_back(std::async(std::launch::async,
+                                    [&findAll, number]
+                                    {
+                                        osgMultiRender::useAllCores();
+                                        return findAll(number);
+                                    }));
     std::vector<std::vector<Part>> found{findAll(0)};
     for (auto& other : others)
         found.push_back(other.get());
