@@ -187,11 +187,15 @@ std::optional<MipChain> ChainCache::read(const ContentHash& key, int firstLevel)
             const ChainFileLayout& layout = *entry.layout;
             const int level = std::min(firstLevel, layout.firstLevel + layout.levels() - 1);
             const std::uint64_t start = layout.levelOffset(level);
-            std::string tail(layout.fileBytes() - start, '\0');
             std::fseek(entry.file.get(), static_cast<long>(start), SEEK_SET);
-            tail.resize(std::fread(tail.data(), 1, tail.size(), entry.file.get()));
-            bytesRead = tail.size();
-            chain = readChainTail(layout, level, tail);
+            chain = readChainTail(layout, level,
+                                  [&](void* bytes, std::size_t count)
+                                  {
+                                      const auto got =
+                                          std::fread(bytes, 1, count, entry.file.get());
+                                      bytesRead += got;
+                                      return got == count;
+                                  });
             entry.damaged = !chain;
         }
         entry.file.reset();
@@ -221,33 +225,34 @@ bool ChainCache::write(const ContentHash& key, const MipChain& chain)
     {
         return true;
     }
-    const std::string bytes = writeChainFile(key, chain);
+    const ChainFileLayout layout{chain.format, chain.width, chain.height, chain.firstLevel, key, 0};
+    const std::uint64_t bytes = layout.fileBytes();
     {
         const std::lock_guard<std::mutex> lock(_mutex);
-        if (now < _writeAgain || bytes.size() > _limitBytes)
+        if (now < _writeAgain || bytes > _limitBytes)
         {
             return false;
         }
     }
-    makeRoom(bytes.size());
-    const std::string path = getPath(key);
-    if (!writeFile(path, bytes))
+    makeRoom(bytes);
+    if (!writeFile(key, chain))
     {
         return false;
     }
     {
         const std::lock_guard<std::mutex> lock(_roomMutex);
-        _bytes += bytes.size();
-        _bytesSinceScan += bytes.size();
+        _bytes += bytes;
+        _bytesSinceScan += bytes;
     }
     const std::lock_guard<std::mutex> lock(_mutex);
     ++_statistics.written;
-    _statistics.bytesWritten += bytes.size();
+    _statistics.bytesWritten += bytes;
     return true;
 }
 
-bool ChainCache::writeFile(const std::string& path, const std::string& bytes)
+bool ChainCache::writeFile(const ContentHash& key, const MipChain& chain)
 {
+    const std::string path = getPath(key);
     std::error_code error;
     fs::create_directories(fs::path(path).parent_path(), error);
     if (error)
@@ -263,8 +268,10 @@ bool ChainCache::writeFile(const std::string& path, const std::string& bytes)
         fail("write into it", std::strerror(errno));
         return false;
     }
-    std::setvbuf(file.get(), nullptr, _IONBF, 0); // it comes in one piece
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
+    const bool written =
+        writeChainFile(key, chain,
+                       [&file](const void* bytes, std::size_t count)
+                       { return std::fwrite(bytes, 1, count, file.get()) == count; });
     const int cause = errno;
     const bool closed = std::fclose(file.release()) == 0;
     if (written && closed)

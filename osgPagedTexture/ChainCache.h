@@ -63,7 +63,7 @@ public:
 
 private:
     void remove(const ContentHash& key);
-    bool writeFile(const std::string& path, const std::string& bytes);
+    bool writeFile(const ContentHash& key, const MipChain& chain);
     void makeRoom(std::uint64_t newBytes);
     std::uint64_t removeOldest(std::uint64_t newBytes);
     void fail(const std::string& action, const std::string& cause);
@@ -73,7 +73,7 @@ private:
     mutable std::mutex _mutex; ///< Guards what follows; never held for the disk: frames take it.
     Statistics _statistics;
     std::vector<std::string> _messages;
-    bool _failed = false; ///< A failure was told.
+    bool _failed = false;                                ///< A failure was told.
     std::chrono::steady_clock::time_point _writeAgain{}; ///< Not before, after a failure.
 
     std::mutex _roomMutex; ///< Guards what follows; whoever writes may wait for what is removed.

@@ -215,7 +215,7 @@ std::uint64_t levelChecksum(const ContentHash& key, int level,
     return checksum(bytes.data(), bytes.size(), key.low ^ key.high ^ std::uint64_t(level));
 }
 
-std::string writeChainFile(const ContentHash& key, const MipChain& chain)
+bool writeChainFile(const ContentHash& key, const MipChain& chain, const WriteBytes& write)
 {
     std::string table;
     for (std::size_t i = 0; i < chain.levels.size(); ++i)
@@ -224,45 +224,36 @@ std::string writeChainFile(const ContentHash& key, const MipChain& chain)
     }
     ChainFileLayout layout{chain.format, chain.width, chain.height, chain.firstLevel, key, 0};
     layout.tableChecksum = layout.checksumOf(table.data());
-    std::string text;
-    text.reserve(layout.fileBytes());
-    text += layout.header();
-    for (const std::vector<std::uint8_t>& level : chain.levels)
-    {
-        text.append(reinterpret_cast<const char*>(level.data()), level.size());
-    }
-    return text + table;
+    const std::string header = layout.header();
+    return write(header.data(), header.size()) &&
+           std::all_of(chain.levels.begin(), chain.levels.end(),
+                       [&write](const std::vector<std::uint8_t>& level)
+                       { return write(level.data(), level.size()); }) &&
+           write(table.data(), table.size());
 }
 
 std::optional<MipChain> readChainTail(const ChainFileLayout& layout, int firstLevel,
-                                      const std::string& tail)
+                                      const ReadBytes& read)
 {
-    const std::uint64_t start = layout.levelOffset(firstLevel);
-    if (tail.size() != layout.fileBytes() - start)
+    MipChain chain{layout.format, layout.width, layout.height, firstLevel, {}};
+    std::string checksums;
+    for (int level = firstLevel; level < layout.firstLevel + layout.levels(); ++level)
     {
-        return {};
-    }
-    const std::size_t tableAt = layout.tableOffset() - start;
-    if (layout.checksumOf(tail.data() + tableAt) != layout.tableChecksum)
-    {
-        return {};
-    }
-    MipChain chain;
-    chain.format = layout.format;
-    chain.width = layout.width;
-    chain.height = layout.height;
-    chain.firstLevel = firstLevel;
-    const int end = layout.firstLevel + layout.levels();
-    for (int level = firstLevel; level < end; ++level)
-    {
-        const char* from = tail.data() + (layout.levelOffset(level) - start);
-        const char* to = tail.data() + (layout.levelOffset(level + 1) - start);
-        chain.levels.emplace_back(from, to);
-        const std::size_t entry = tableAt + sizeof(std::uint64_t) * (level - layout.firstLevel);
-        if (levelChecksum(layout.key, level, chain.levels.back()) != getLong(tail, entry))
+        std::vector<std::uint8_t> bytes(layout.levelOffset(level + 1) - layout.levelOffset(level));
+        if (!read(bytes.data(), bytes.size()))
         {
             return {};
         }
+        putLong(checksums, levelChecksum(layout.key, level, bytes));
+        chain.levels.push_back(std::move(bytes));
+    }
+    std::string table(sizeof(std::uint64_t) * std::size_t(layout.levels()), '\0');
+    const std::size_t skipped = table.size() - checksums.size();
+    if (!read(table.data(), table.size()) ||
+        layout.checksumOf(table.data()) != layout.tableChecksum ||
+        table.compare(skipped, std::string::npos, checksums) != 0)
+    {
+        return {};
     }
     return chain;
 }

@@ -5,6 +5,7 @@
 #include <osgPagedTexture/MipChain.h>
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -51,12 +52,18 @@ std::optional<ChainFileLayout> parseChainHeader(const std::string& head, std::ui
 std::uint64_t levelChecksum(const ContentHash& key, int level,
                             const std::vector<std::uint8_t>& bytes);
 
-/// The whole file.
-std::string writeChainFile(const ContentHash& key, const MipChain& chain);
+/// Takes the next bytes of a file; false where it can't, which ends the writing.
+using WriteBytes = std::function<bool(const void* bytes, std::size_t count)>;
 
-/// Reads the levels from `firstLevel` on out of `tail`, the file's bytes from
-/// layout.levelOffset(firstLevel) to its end. Nothing where a checksum fails.
+/// Gives the next bytes of a file; false where there are not as many.
+using ReadBytes = std::function<bool(void* bytes, std::size_t count)>;
+
+/// Writes the whole file in pieces, from its first byte to its last. False where `write` said so.
+bool writeChainFile(const ContentHash& key, const MipChain& chain, const WriteBytes& write);
+
+/// Reads the levels from `firstLevel` on. `read` gives the file's bytes from
+/// layout.levelOffset(firstLevel) on. Nothing where they end too early or a checksum fails.
 std::optional<MipChain> readChainTail(const ChainFileLayout& layout, int firstLevel,
-                                      const std::string& tail);
+                                      const ReadBytes& read);
 
 } // namespace osgPagedTexture

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // ChainFileCorpus <folder>: writes an entry of the disk cache for each format.
+#include "fuzz/ChainFileText.h"
 #include "osgPagedTexture/ChainSamples.h"
-
-#include <osgPagedTexture/DdsFile.h>
 
 #include <fstream>
 #include <iostream>
@@ -19,7 +18,7 @@ int main(int argc, char** argv)
     for (int i = 0; i <= static_cast<int>(BlockFormat::BC7); ++i)
     {
         const auto format = static_cast<BlockFormat>(i);
-        const std::string file = writeChainFile({1, 2}, sampleChain(format, 9 + i, 6, i % 3));
+        const std::string file = chainFileText({1, 2}, sampleChain(format, 9 + i, 6, i % 3));
         std::ofstream(std::string(argv[1]) + "/" + formatName(format), std::ios::binary)
             << '\0' << file;
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as an entry of the disk cache: what is taken is bit for bit what is written. The first
 // byte picks the level that is read; an odd one makes a whole entry of the bytes and damages it.
+#include "fuzz/ChainFileText.h"
 #include "fuzz/Require.h"
-
-#include <osgPagedTexture/DdsFile.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -24,9 +23,15 @@ std::optional<MipChain> readFile(const std::string& file, int level, ContentHash
     key = layout->key;
     const int first =
         std::clamp(level, layout->firstLevel, layout->firstLevel + layout->levels() - 1);
-    const std::uint64_t start = layout->levelOffset(first);
-    require(start <= file.size(), "levels lie in the file");
-    return readChainTail(*layout, first, file.substr(start));
+    std::size_t at = layout->levelOffset(first);
+    return readChainTail(*layout, first,
+                         [&](void* bytes, std::size_t count)
+                         {
+                             require(at + count <= file.size(), "levels lie in the file");
+                             std::memcpy(bytes, file.data() + at, count);
+                             at += count;
+                             return true;
+                         });
 }
 
 void checkAnyBytes(const std::string& file, int level)
@@ -35,7 +40,7 @@ void checkAnyBytes(const std::string& file, int level)
     if (readFile(file, level, key))
     {
         const auto whole = readFile(file, 0, key);
-        require(!whole || writeChainFile(key, *whole) == file, "what is taken is what is written");
+        require(!whole || chainFileText(key, *whole) == file, "what is taken is what is written");
     }
 }
 
@@ -66,7 +71,7 @@ void checkDamage(const std::string& bytes)
 {
     const MipChain chain = chainOf(bytes);
     const ContentHash key = hashText(bytes);
-    const std::string file = writeChainFile(key, chain);
+    const std::string file = chainFileText(key, chain);
     ContentHash found;
     const auto whole = readFile(file, 0, found);
     require(whole && whole->levels == chain.levels && found == key, "a whole file is read");

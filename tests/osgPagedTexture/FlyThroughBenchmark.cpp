@@ -31,6 +31,7 @@
 #include <osgDB/Registry>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -112,9 +113,7 @@ public:
     /// Empty, and a line on the error stream, where it can't be flown.
     std::vector<double> fly()
     {
-        const osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
-        std::ifstream file(_task.path);
-        path->read(file);
+        const osg::ref_ptr<osg::AnimationPath> path = readPath();
         if (path->empty() || !_viewer.isValid())
             return fail(path->empty() ? _task.path + " is no path" : _viewer.getError());
         const osg::Timer_t start = osg::Timer::instance()->tick();
@@ -177,6 +176,18 @@ private:
         settings.width = task.options.width;
         settings.height = task.options.height;
         return settings;
+    }
+
+    /// AnimationPath::read() never ends on what is no number, or no file.
+    osg::ref_ptr<osg::AnimationPath> readPath() const
+    {
+        osg::ref_ptr<osg::AnimationPath> path = new osg::AnimationPath;
+        std::ifstream file(_task.path);
+        std::array<double, 8> n;
+        while (std::all_of(n.begin(), n.end(), [&file](double& x) { return bool(file >> x); }))
+            path->insert(n[0], osg::AnimationPath::ControlPoint(osg::Vec3d(n[1], n[2], n[3]),
+                                                                osg::Quat(n[4], n[5], n[6], n[7])));
+        return path;
     }
 
     std::vector<double> fail(const std::string& why)
